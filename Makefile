@@ -1,0 +1,140 @@
+# gnomon. `make help` lists the targets.
+#
+# VARIANT: release debug asan size. CROSS: a board's compiler prefix (arm-linux-gnueabihf-).
+# CC, CFLAGS, CPPFLAGS, LDFLAGS, AR, PKG_CONFIG, PREFIX, DESTDIR mean what they mean everywhere.
+VARIANT    ?= release
+CROSS      ?=
+PREFIX     ?= /usr/local
+PKG_CONFIG ?= pkg-config
+PYTHON     ?= python3
+
+ifeq ($(origin CC),default)
+CC := $(CROSS)gcc
+endif
+ifeq ($(origin AR),default)
+AR := $(CROSS)ar
+endif
+
+B       := build/$(CROSS)$(VARIANT)
+D       := $(DESTDIR)$(PREFIX)
+VERSION := $(shell awk '/define GN_VERSION_/ {printf dot $$3; dot = "."}' core/gnomon.h)
+
+release := -O2
+debug   := -Og -g
+asan    := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+size    := -Os -ffunction-sections -fdata-sections
+WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
+# -ffp-contract=off: the same floats with fused multiply-add and without (DESIGN.md, decision 1)
+FLAGS    = -std=c99 $(WARN) $(WERROR) -ffp-contract=off $($(VARIANT)) $(INCLUDE) -MMD -MP $(CPPFLAGS) $(CFLAGS)
+
+# Each room sees only the rooms below it.
+INC_port      := -Iport
+INC_core      := $(INC_port) -Icore
+INC_gles      := $(INC_core) -Igles -I$(B)/gles
+INC_platforms := -Iplatforms
+INC_tools      = $(INC_core) -Igles -Iplatforms -Itools -I$(B)/tools $(shell $(PKG_CONFIG) --cflags libcjson libpng)
+INC_tests      = $(INC_tools) -Itests/support $(shell $(PKG_CONFIG) --cflags cmocka)
+INCLUDE        = $(INC_$(firstword $(subst /, ,$<)))
+
+TOOL_LIBS  = $(shell $(PKG_CONFIG) --libs libcjson libpng) -ldl -lm
+TEST_LIBS  = $(shell $(PKG_CONFIG) --libs cmocka) $(TOOL_LIBS)
+
+objects  = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)))
+LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c)
+TOOLS   := $(filter-out $(B)/tools/main.o,$(call objects,tools/*.c platforms/*.c))
+SUPPORT := $(call objects,tests/support/*.c port/port_template.c)
+SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/shaders/*))
+TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
+PUBLIC  := port/gn_port.h core/gnomon.h core/gn_matrix.h gles/gnomon_gles.h gles/gn_gl.h gles/gl_funcs.h
+SCENES  := build/scenes/scenes.txt
+
+.DEFAULT_GOAL := all
+.PHONY: all deps demo test truth headers layers asan valgrind size install format clean help check-build
+.SECONDARY:
+
+all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
+
+demo: build/demo.png ## draw the courtyard, headless, into build/demo.png
+	@$(B)/gnomon render build/scenes/courtyard.gltf -o build/demo.png --size 1280x800 --report build/demo.json
+	@echo "build/demo.png: the courtyard, $$(sed -n 's/.*"renderer": "\([^"]*\)".*/\1/p' build/demo.json)," \
+	  "$$(sed -n 's/.*"driver": "\([^"]*\)".*/\1/p' build/demo.json)"
+build/demo.png: $(B)/gnomon $(SCENES)
+	@touch $@
+
+test: $(TESTS) $(B)/gnomon $(SCENES) headers layers check-build ## run every test of this VARIANT
+	@sh tests/run.sh $(B) $(TESTS)
+
+truth: $(B)/gnomon $(B)/tests/truth/truth_table $(SCENES) ## masks of all test scenes against the ray-traced truth
+	@sh tests/truth/truth.sh $(B) $(TRUTH_ARGS)
+
+headers: ## each public header compiles alone, as C99 and as C++
+	@for h in $(PUBLIC); do case $$h in *gl_funcs.h) continue;; esac; \
+	  $(CC) -x c -std=c99 -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -fsyntax-only $$h || exit 1; \
+	  $(CC) -x c++ -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -fsyntax-only $$h || exit 1; done
+
+layers: $(B)/libgnomon.a ## arrows point down only: no GL in core, no window system in gles, no libc files in the library
+	@! grep -nE '#include.*(GL|EGL|gles|platform|scene|stdio\.h.*FILE)' core/*.[ch] port/*.[ch]
+	@! grep -nE '#include.*(EGL|X11|osmesa|GLFW|platform|scene)' gles/*.[ch]
+	@! grep -nE '#include.*(gnomon|gni|scene)' platforms/*.[ch]
+	@! grep -nE '#include.*gni' tools/*.[ch]
+	@! $(CROSS)nm -u $(B)/libgnomon.a | grep -E ' U (e?gl[A-Z]|fopen|malloc|free$$)' | grep -v ' U free$$'
+	@! for o in $(filter-out %/port_libc.o,$(LIBRARY)); do $(CROSS)nm -u $$o; done | grep -E ' U (malloc|calloc|realloc|free|fopen|printf)$$'
+	@! $(CROSS)nm $(LIBRARY) | grep -E ' [BbDdC] ' | grep -v ' \.L'
+
+check-build: ## the tools know nothing of each other's build: install into a scratch root and link against it
+	@sh tests/install.sh $(B) "$(CC)"
+
+asan: ## the tests under ASan and UBSan
+	@$(MAKE) --no-print-directory VARIANT=asan test
+
+valgrind: $(TESTS) $(B)/gnomon $(SCENES) ## the tests that matter for memory under valgrind
+	@sh tests/valgrind.sh $(B)
+
+size: ## bytes per object of the library, built with -Os
+	@$(MAKE) --no-print-directory VARIANT=size build/$(CROSS)size/libgnomon.a
+	@$(CROSS)size -t build/$(CROSS)size/libgnomon.a
+
+install: all ## library, headers, command and gnomon.pc under DESTDIR and PREFIX
+	install -d $(D)/include/gnomon $(D)/lib/pkgconfig $(D)/bin
+	install -m 644 $(PUBLIC) $(D)/include/gnomon
+	install -m 644 $(B)/libgnomon.a $(D)/lib
+	install -m 755 $(B)/gnomon $(D)/bin
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' port/gnomon.pc.in > $(D)/lib/pkgconfig/gnomon.pc
+
+format: ## lay out every C file by .clang-format
+	clang-format -i $$(git ls-files '*.c' '*.h')
+
+deps: ## what is missing here: installs it as root on Debian, else prints the command that does
+	@sh tools/deps.sh
+
+clean: ## remove build/
+	rm -rf build
+
+help: ## this list
+	@awk -F':.*## ' '/^[a-z-]+:.*## / {printf "  %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+$(B)/libgnomon.a: $(LIBRARY)
+	@rm -f $@
+	$(AR) rcs $@ $^
+$(B)/gnomon: $(B)/tools/main.o $(TOOLS) $(B)/libgnomon.a
+	$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+$(B)/tests/%: $(B)/tests/%.o $(SUPPORT) $(TOOLS) $(B)/libgnomon.a
+	$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TEST_LIBS) -o $@
+$(B)/%.o: %.c | $(SHADERS)
+	@mkdir -p $(@D)
+	$(CC) $(FLAGS) -c $< -o $@
+# A shader becomes a C string: comments go, lines stay, so that the driver's line numbers are the file's.
+$(B)/%.h: %
+	@mkdir -p $(@D)
+	@{ echo 'static const char gni_shader_$(subst .,_,$(notdir $<))[] ='; \
+	  sed 's|[[:space:]]*//.*||; s|\\|\\\\|g; s|"|\\"|g; s|.*|    "&\\n"|' $<; echo '    ;'; } > $@
+$(SCENES): $(wildcard tests/scenes/*.py)
+	@mkdir -p $(@D)
+	$(PYTHON) tests/scenes/scenes.py $(@D)
+
+# `make deps demo` on a bare machine: nothing is built before what builds it is there.
+ifneq ($(filter deps,$(MAKECMDGOALS)),)
+$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS)) headers layers check-build: | deps
+endif
+
+-include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -1,0 +1,297 @@
+/* ends.c - where the shadow volumes of an orthographic camera end.
+ *
+ * An orthographic camera cannot image a vertex at infinity, so its volumes end on planes, in a depth range that is widened to
+ * hold them (DESIGN.md, decision 3). A wide range costs depth precision: the planes are chosen to keep it narrow.
+ *
+ * A plane p > 0 on the side of everything visible that receives may end the volume of a triangle when the light is on that side
+ * too and the triangle lies strictly between the plane and the parallel to it through the light: then each ray from the light
+ * through the triangle reaches the plane behind everything that it could shadow (DESIGN.md, decision 6). A triangle that lies
+ * wholly behind such a plane shadows nothing that is seen.
+ *
+ * Candidates are the faces of two boxes around what is seen and receives, one along the view's axes and one along the
+ * world's: a floor under a lamp ends right below itself. When one plane serves a whole caster, it is taken; otherwise each triangle takes
+ * the plane that keeps its end nearest to the eye, and the caster's volume falls into as many closed volumes as there are
+ * planes. A triangle that no face serves (a large one, seen under a wide angle from a light close to it) gets a plane
+ * parallel to itself. */
+#include "gni.h"
+#include "gn_matrix.h"
+
+#include <math.h>
+#include <string.h>
+
+#define MARGIN (1.0 / 256.0) /* of a box's diagonal: far more than a depth step, far less than a scene */
+
+static void grow(double low[3], double high[3], const double p[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = fmin(low[axis], p[axis]);
+        high[axis] = fmax(high[axis], p[axis]);
+    }
+}
+
+static void grow_by_box(double low[3], double high[3], const gn_mesh_info *info, const double matrix[16])
+{
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] = (double)(corner >> axis & 1 ? info->box_max[axis] : info->box_min[axis]);
+        gn_mat4_transform(p, matrix, p, 1.0);
+        grow(low, high, p);
+    }
+}
+
+static void add_margin(double low[3], double high[3])
+{
+    const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
+    const double margin = MARGIN * sqrt(x * x + y * y + z * z);
+
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] -= margin;
+        high[axis] += margin;
+    }
+}
+
+/* The six faces of a box as planes that are positive inside. */
+static void faces(double planes[6][4], const double low[3], const double high[3])
+{
+    memset(planes, 0, 6 * sizeof planes[0]);
+    for (int axis = 0; axis < 3; axis++) {
+        planes[2 * axis][axis] = 1.0;
+        planes[2 * axis][3] = -low[axis];
+        planes[2 * axis + 1][axis] = -1.0;
+        planes[2 * axis + 1][3] = high[axis];
+    }
+}
+
+void gni_receiver_region(gni_region *region, const gn_scene *scene)
+{
+    const gn_camera *camera = &scene->camera;
+    double low[2][3], high[2][3], axes[16];
+
+    memset(region, 0, sizeof *region);
+    region->deepest = camera->zfar != 0.0 ? camera->zfar : camera->znear;
+    for (int box = 0; box < 2; box++)
+        for (int axis = 0; axis < 3; axis++) {
+            low[box][axis] = INFINITY;
+            high[box][axis] = -INFINITY;
+        }
+    /* the world's axes, from the eye: view space turned, so that nothing is far from the origin */
+    memcpy(axes, camera->world, sizeof axes);
+    axes[12] = axes[13] = axes[14] = 0.0;
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        const gn_object *object = &scene->objects[i];
+        double to_view[16], turned[16], object_low[3] = {INFINITY, INFINITY, INFINITY};
+        double object_high[3] = {-INFINITY, -INFINITY, -INFINITY};
+
+        gni_model_view(to_view, camera, object->model, object->mesh->info.centre);
+        grow_by_box(object_low, object_high, &object->mesh->info, to_view);
+        if (camera->zfar == 0.0)
+            region->deepest = fmax(region->deepest, -object_low[2]);
+        if (!(object->flags & GN_RECEIVES))
+            continue;
+        grow(low[0], high[0], object_low);
+        grow(low[0], high[0], object_high);
+        gn_mat4_multiply(turned, axes, to_view);
+        grow_by_box(low[1], high[1], &object->mesh->info, turned);
+    }
+    low[0][0] = fmax(low[0][0], camera->left);
+    high[0][0] = fmin(high[0][0], camera->right);
+    low[0][1] = fmax(low[0][1], camera->bottom);
+    high[0][1] = fmin(high[0][1], camera->top);
+    low[0][2] = fmax(low[0][2], -region->deepest);
+    high[0][2] = fmin(high[0][2], -camera->znear);
+    region->empty = !(low[0][0] < high[0][0] && low[0][1] < high[0][1] && low[0][2] < high[0][2]);
+    if (region->empty)
+        return;
+    for (int box = 0; box < 2; box++) {
+        add_margin(low[box], high[box]);
+        faces(region->planes + 6 * box, low[box], high[box]);
+        memcpy(region->corner_min[box], low[box], sizeof low[box]);
+        memcpy(region->corner_max[box], high[box], sizeof high[box]);
+    }
+    memcpy(region->view_to_axes, axes, sizeof axes);
+    for (int p = 6; p < 12; p++) { /* a plane's normal turns with the inverse, and a rotation's inverse is its transpose */
+        const double n[3] = {region->planes[p][0], region->planes[p][1], region->planes[p][2]};
+
+        for (int i = 0; i < 3; i++)
+            region->planes[p][i] = axes[4 * i] * n[0] + axes[4 * i + 1] * n[1] + axes[4 * i + 2] * n[2];
+    }
+}
+
+static double side(const double plane[4], const double p[3], double w)
+{
+    return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * w;
+}
+
+typedef struct search {
+    const gni_region *region;
+    const gn_mesh *mesh;
+    const double *model_view, *light;
+} search;
+
+static void triangle_in_view(const search *s, uint32_t triangle, double v[3][3])
+{
+    for (int k = 0; k < 3; k++) {
+        const float *p = s->mesh->positions + 3 * (size_t)s->mesh->triangles[3 * (size_t)triangle + (size_t)k];
+        const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
+
+        gn_mat4_transform(v[k], s->model_view, given, 1.0);
+    }
+}
+
+/* The greatest view distance of a triangle and its end on a plane; INFINITY when the plane cannot end it; -INFINITY when it
+ * lies behind the plane and shadows nothing. */
+static double depth_on(const search *s, const double plane[4], double v[3][3])
+{
+    const double of_light = side(plane, s->light, s->light[3]);
+    double deepest = -INFINITY;
+    int behind = 0;
+
+    if (!(of_light > 0.0))
+        return INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double of_point = side(plane, v[k], 1.0);
+        const double w = of_light - of_point * s->light[3];
+
+        behind += of_point <= 0.0;
+        /* strictly between, and by enough that the division below keeps its digits */
+        if (of_point <= 0.0 || !(w > 1e-9 * of_light))
+            deepest = INFINITY;
+        else
+            deepest = fmax(deepest, fmax(-v[k][2], -(of_light * v[k][2] - of_point * s->light[2]) / w));
+    }
+    return behind == 3 ? -INFINITY : deepest;
+}
+
+/* A plane parallel to the triangle, behind it as the light sees it, and behind all of one of the two boxes. */
+static void own_plane(const search *s, double v[3][3], double plane[4])
+{
+    const gni_region *r = s->region;
+    double a[3], b[3], n[3], of_triangle, nearest = INFINITY, length;
+
+    for (int i = 0; i < 3; i++) {
+        a[i] = v[1][i] - v[0][i];
+        b[i] = v[2][i] - v[0][i];
+    }
+    n[0] = a[1] * b[2] - a[2] * b[1];
+    n[1] = a[2] * b[0] - a[0] * b[2];
+    n[2] = a[0] * b[1] - a[1] * b[0];
+    length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    of_triangle = n[0] * v[0][0] + n[1] * v[0][1] + n[2] * v[0][2];
+    if (n[0] * s->light[0] + n[1] * s->light[1] + n[2] * s->light[2] - of_triangle * s->light[3] < 0.0)
+        length = -length; /* the normal looks at the light */
+    for (int i = 0; i < 3; i++)
+        n[i] /= length;
+    of_triangle /= length;
+    for (int box = 0; box < 2; box++) {
+        double turned[3] = {n[0], n[1], n[2]}, lowest = 0.0;
+
+        if (box == 1)
+            gn_mat4_transform(turned, r->view_to_axes, n, 0.0);
+        for (int i = 0; i < 3; i++)
+            lowest += turned[i] * (turned[i] > 0.0 ? r->corner_min[box][i] : r->corner_max[box][i]);
+        /* the nearer to the light of the two serves, since what is seen lies in both boxes */
+        if (box == 0 || lowest > nearest)
+            nearest = lowest;
+    }
+    for (int i = 0; i < 3; i++)
+        plane[i] = n[i];
+    length = 0.0;
+    for (int i = 0; i < 3; i++)
+        length = fmax(length, r->corner_max[0][i] - r->corner_min[0][i]);
+    plane[3] = -fmin(nearest, of_triangle - MARGIN * length);
+}
+
+/* One plane for the whole caster: the one whose ends are nearest. Returns its depth, or INFINITY. */
+static double best_common(const search *s, const int8_t *casting, uint32_t *best)
+{
+    double depth[12];
+
+    for (int p = 0; p < 12; p++)
+        depth[p] = -INFINITY;
+    for (uint32_t t = 0; t < s->mesh->info.triangle_count; t++) {
+        double v[3][3];
+
+        if (!casting[t])
+            continue;
+        triangle_in_view(s, t, v);
+        for (int p = 0; p < 12; p++)
+            if (depth[p] < INFINITY) {
+                const double d = depth_on(s, s->region->planes[p], v);
+
+                depth[p] = d == -INFINITY ? INFINITY : fmax(depth[p], d);
+            }
+    }
+    *best = 0;
+    for (uint32_t p = 1; p < 12; p++)
+        if (depth[p] < depth[*best])
+            *best = p;
+    return depth[*best];
+}
+
+/* A plane for each triangle. Returns 0 when there are too many. */
+static int choose_each(gni_ends *ends, const search *s, const int8_t *casting, uint8_t *end_of)
+{
+    const double enough = 2.0 * s->region->deepest + s->region->corner_max[0][2]; /* twice the range: beyond it an own plane is tried */
+
+    memcpy(ends->planes, s->region->planes, sizeof s->region->planes);
+    ends->count = 12;
+    ends->deepest = -INFINITY;
+    for (uint32_t t = 0; t < s->mesh->info.triangle_count; t++) {
+        double v[3][3], depth = INFINITY;
+        int best = 0;
+
+        if (!casting[t])
+            continue;
+        triangle_in_view(s, t, v);
+        for (uint32_t p = 0; p < ends->count && depth > -INFINITY; p++) {
+            const double d = depth_on(s, ends->planes[p], v);
+
+            if (d < depth) {
+                depth = d;
+                best = (int)p;
+            }
+        }
+        if (depth > enough) {
+            double plane[4], d;
+
+            own_plane(s, v, plane);
+            d = depth_on(s, plane, v);
+            if (d < depth) {
+                if (ends->count == GNI_MAX_ENDS)
+                    return 0;
+                memcpy(ends->planes[ends->count], plane, sizeof plane);
+                best = (int)ends->count++;
+                depth = d;
+            }
+        }
+        if (depth == INFINITY)
+            return 0;
+        end_of[t] = depth == -INFINITY ? GNI_MAX_ENDS : (uint8_t)best;
+        ends->deepest = fmax(ends->deepest, depth);
+    }
+    return 1;
+}
+
+int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mesh, const double model_view[16],
+                    const double light[4], const int8_t *casting, uint8_t *end_of)
+{
+    const search s = {region, mesh, model_view, light};
+    uint32_t best;
+    double depth;
+
+    ends->count = 0;
+    ends->deepest = -INFINITY;
+    if (region->empty)
+        return 1;
+    depth = best_common(&s, casting, &best);
+    if (depth < 2.0 * region->deepest + region->corner_max[0][2] || depth == -INFINITY) {
+        ends->count = depth == -INFINITY ? 0 : 1; /* nothing casts: no volume */
+        memcpy(ends->planes[0], region->planes[best], sizeof ends->planes[0]);
+        ends->deepest = depth;
+        memset(end_of, 0, mesh->info.triangle_count);
+        return 1;
+    }
+    return choose_each(ends, &s, casting, end_of);
+}

@@ -1,0 +1,119 @@
+/* mesh.c - a triangle soup made ready to cast: welded, with edges, planes, parts and 16-bit chunks, once for all frames. */
+#include "gni.h"
+
+#include <string.h>
+
+void gn_mesh_destroy(gn_mesh *mesh)
+{
+    gn_context *context;
+
+    if (!mesh)
+        return;
+    context = mesh->context;
+    gni_free(context, mesh->positions);
+    gni_free(context, mesh->triangles);
+    gni_free(context, mesh->planes);
+    gni_free(context, mesh->edge_uses);
+    gni_free(context, mesh->uses);
+    gni_free(context, mesh->chunk_edges);
+    gni_free(context, mesh->parts);
+    gni_free(context, mesh->part_triangles);
+    gni_free(context, mesh->chunks);
+    gni_free(context, mesh->chunk_vertices);
+    gni_free(context, mesh->corners);
+    gni_free(context, mesh);
+}
+
+/* The plane of a triangle: its cross product and minus that times its first vertex. 0 0 0 0 where it has no area. */
+static void plane_of(const gn_mesh *mesh, uint32_t triangle, double plane[4])
+{
+    const uint32_t *c = mesh->triangles + 3 * (size_t)triangle;
+    double v[3][3];
+
+    for (int k = 0; k < 3; k++)
+        for (int axis = 0; axis < 3; axis++)
+            v[k][axis] = (double)mesh->positions[3 * (size_t)c[k] + (size_t)axis];
+    for (int axis = 0; axis < 3; axis++) {
+        const int y = (axis + 1) % 3, z = (axis + 2) % 3;
+
+        plane[axis] = (v[1][y] - v[0][y]) * (v[2][z] - v[0][z]) - (v[1][z] - v[0][z]) * (v[2][y] - v[0][y]);
+    }
+    plane[3] = -(plane[0] * v[0][0] + plane[1] * v[0][1] + plane[2] * v[0][2]);
+}
+
+static gn_result make_planes(gn_mesh *mesh)
+{
+    const double *first = NULL;
+
+    mesh->planes = gni_alloc(mesh->context, mesh->info.triangle_count, 4 * sizeof(double));
+    if (!mesh->planes)
+        return gn_fail(mesh->context, GN_E_MEMORY, "mesh: no memory for the planes of %lu triangles",
+                        (unsigned long)mesh->info.triangle_count);
+    mesh->info.planar = mesh->info.triangle_count > 0;
+    for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
+        double *plane = mesh->planes + 4 * (size_t)t;
+
+        plane_of(mesh, t, plane);
+        if (plane[0] == 0.0 && plane[1] == 0.0 && plane[2] == 0.0)
+            continue;
+        if (!first)
+            first = plane;
+        for (int k = 0; k < 3; k++) { /* exact: a mesh is planar, or it is not known to be */
+            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
+
+            if (first[0] * (double)p[0] + first[1] * (double)p[1] + first[2] * (double)p[2] + first[3] != 0.0)
+                mesh->info.planar = 0;
+        }
+    }
+    if (!first)
+        mesh->info.planar = 0;
+    return GN_OK;
+}
+
+gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **out)
+{
+    gn_mesh *mesh;
+    gn_result result;
+
+    if (out)
+        *out = NULL;
+    if (!context || !desc || !out || (!desc->positions && desc->vertex_count) ||
+        (!desc->indices && desc->triangle_count))
+        return gn_fail(context, GN_E_ARG, "gn_mesh_create: NULL argument");
+    if (desc->stride != 0 && (desc->stride < 3 * sizeof(float) || desc->stride % sizeof(float) != 0))
+        return gn_fail(context, GN_E_ARG, "gn_mesh_create: stride of %lu bytes: a multiple of 4 from 12 on, or 0",
+                        (unsigned long)desc->stride);
+    if (desc->triangle_count > GN_MAX_TRIANGLES || desc->vertex_count > 3 * (size_t)GN_MAX_TRIANGLES)
+        return gn_fail(context, GN_E_ARG, "gn_mesh_create: %lu triangles, %lu vertices: at most %lu triangles",
+                        (unsigned long)desc->triangle_count, (unsigned long)desc->vertex_count,
+                        (unsigned long)GN_MAX_TRIANGLES);
+    mesh = gni_alloc(context, 1, sizeof *mesh);
+    if (!mesh)
+        return gn_fail(context, GN_E_MEMORY, "gn_mesh_create: no memory for a mesh");
+    memset(mesh, 0, sizeof *mesh);
+    mesh->context = context;
+    result = gni_weld(mesh, desc);
+    if (result == GN_OK)
+        result = make_planes(mesh);
+    if (result == GN_OK)
+        result = gni_make_edges(mesh);
+    if (result == GN_OK)
+        result = gni_make_parts(mesh);
+    if (result == GN_OK)
+        result = gni_make_chunks(mesh);
+    if (result != GN_OK) {
+        gn_mesh_destroy(mesh);
+        return result;
+    }
+    mesh->info.positions = mesh->positions;
+    mesh->info.triangles = mesh->triangles;
+    mesh->info.chunks = mesh->chunks;
+    mesh->info.chunk_vertices = mesh->chunk_vertices;
+    *out = mesh;
+    return GN_OK;
+}
+
+const gn_mesh_info *gn_mesh_get_info(const gn_mesh *mesh)
+{
+    return &mesh->info;
+}

@@ -1,0 +1,68 @@
+/* program.c - compiles and links; what the driver says of a failure goes to the port's log with the shader's name. */
+#include "gni_gles.h"
+
+#include <stdio.h>
+
+static void complain(const gn_gles *g, const char *name, const char *log)
+{
+    char line[640];
+
+    if (!g->port.log)
+        return;
+    snprintf(line, sizeof line, "%s: %s", name, log[0] ? log : "refused without a word");
+    g->port.log(g->port.user, GN_LOG_ERROR, line);
+}
+
+static GLuint compile(gn_gles *g, GLenum type, const char *name, const char *source)
+{
+    const gn_gl *gl = &g->gl;
+    const char *const preamble = type == GL_VERTEX_SHADER ? "#version 100\nprecision highp float;\n" GN_GLSL_POSITION
+                                                          : "#version 100\nprecision mediump float;\n";
+    const char *const text[2] = {preamble, source};
+    const GLuint shader = gl->glCreateShader(type);
+    GLint ok = 0;
+
+    if (!shader)
+        return 0;
+    gl->glShaderSource(shader, 2, text, NULL);
+    gl->glCompileShader(shader);
+    gl->glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (!ok) {
+        char log[512] = "";
+
+        gl->glGetShaderInfoLog(shader, sizeof log, NULL, log);
+        complain(g, name, log);
+        gl->glDeleteShader(shader);
+        return 0;
+    }
+    return shader;
+}
+
+GLuint gni_make_program(gn_gles *g, const char *name, const char *vertex, const char *fragment)
+{
+    const gn_gl *gl = &g->gl;
+    const GLuint v = compile(g, GL_VERTEX_SHADER, name, vertex), f = compile(g, GL_FRAGMENT_SHADER, name, fragment);
+    GLuint program = v && f ? gl->glCreateProgram() : 0;
+    GLint ok = 0;
+
+    if (program) {
+        gl->glAttachShader(program, v);
+        gl->glAttachShader(program, f);
+        gl->glBindAttribLocation(program, 0, "a_position");
+        gl->glLinkProgram(program);
+        gl->glGetProgramiv(program, GL_LINK_STATUS, &ok);
+        if (!ok) {
+            char log[512] = "";
+
+            gl->glGetProgramInfoLog(program, sizeof log, NULL, log);
+            complain(g, name, log);
+            gl->glDeleteProgram(program);
+            program = 0;
+        }
+    }
+    if (v)
+        gl->glDeleteShader(v);
+    if (f)
+        gl->glDeleteShader(f);
+    return program;
+}

@@ -1,0 +1,7 @@
+// flat.frag - one colour; while volumes are counted no colour is written.
+uniform lowp vec4 u_color;
+
+void main()
+{
+    gl_FragColor = u_color;
+}

@@ -1,0 +1,54 @@
+/* volumes.c - draws records: the triangles of volumes, with whatever state is set.
+ *
+ * A chunk's vertices stand in its mesh's buffer from its first vertex on, each twice, so attribute 0 is pointed there and the
+ * record's 16-bit indices do the rest. The turned part of a light cap is a call of its own: it keeps its drawn order of
+ * vertices, and the caller counts it the other way round (DESIGN.md, decision 4). */
+#include "gni_gles.h"
+
+void gni_begin_volumes(gn_gles *g, const float color[4])
+{
+    const gn_gl *gl = &g->gl;
+
+    gl->glUseProgram(g->program);
+    gl->glUniform4fv(g->color, 1, color);
+    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
+    gl->glEnableVertexAttribArray(0);
+}
+
+void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int turned)
+{
+    const gn_gl *gl = &g->gl;
+    const gn_plan_object *object = &plan->objects[r->object];
+    const gn_chunk *chunk = &gn_mesh_get_info(object->mesh)->chunks[r->chunk];
+    const uint32_t upright = r->side_count + r->dark_cap_count + r->light_cap_count;
+    const uint32_t first = r->first_index + (turned ? upright : 0);
+    const uint32_t count = turned ? r->turned_cap_count : upright;
+
+    if (count == 0)
+        return;
+    gl->glBindBuffer(GL_ARRAY_BUFFER, gni_find_upload(g, object->mesh)->buffer);
+    gl->glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float),
+                              (const void *)((uintptr_t)chunk->first_vertex * 8 * sizeof(float)));
+    gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, object->matrix);
+    gl->glUniformMatrix4fv(g->far_matrix, 1, GL_FALSE, r->far_matrix);
+    gl->glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_SHORT, (const void *)((uintptr_t)first * sizeof(uint16_t)));
+}
+
+void gni_end_volumes(gn_gles *g)
+{
+    const gn_gl *gl = &g->gl;
+
+    gl->glDisableVertexAttribArray(0);
+    gl->glBindBuffer(GL_ARRAY_BUFFER, 0);
+    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+    gl->glUseProgram(0);
+}
+
+void gn_gles_draw_volumes(gn_gles *g, const gn_plan *plan, uint32_t first_record, uint32_t record_count, const float color[4])
+{
+    gni_begin_volumes(g, color);
+    for (uint32_t i = first_record; i < first_record + record_count && i < plan->record_count; i++)
+        for (int turned = 0; turned < 2; turned++)
+            gni_draw_record(g, plan, &plan->records[i], turned);
+    gni_end_volumes(g);
+}

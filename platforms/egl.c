@@ -1,0 +1,223 @@
+/* egl.c - a context through EGL with neither window nor GPU: displays are tried from the one that needs least (surfaceless,
+ * device, default), and the surface is always a pbuffer, so that framebuffer 0 is a window's stand-in. */
+#include "platform.h"
+
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Every function of EGL that is called here: (type, name, parameters). */
+#define EGL_FUNCTIONS(F)                                                                                                       \
+    F(EGLBoolean, eglInitialize, (EGLDisplay, EGLint *, EGLint *))                                                             \
+    F(EGLBoolean, eglTerminate, (EGLDisplay))                                                                                  \
+    F(EGLBoolean, eglBindAPI, (EGLenum))                                                                                       \
+    F(EGLBoolean, eglChooseConfig, (EGLDisplay, const EGLint *, EGLConfig *, EGLint, EGLint *))                                \
+    F(EGLBoolean, eglGetConfigAttrib, (EGLDisplay, EGLConfig, EGLint, EGLint *))                                               \
+    F(EGLSurface, eglCreatePbufferSurface, (EGLDisplay, EGLConfig, const EGLint *))                                            \
+    F(EGLBoolean, eglDestroySurface, (EGLDisplay, EGLSurface))                                                                 \
+    F(EGLContext, eglCreateContext, (EGLDisplay, EGLConfig, EGLContext, const EGLint *))                                       \
+    F(EGLBoolean, eglDestroyContext, (EGLDisplay, EGLContext))                                                                 \
+    F(EGLBoolean, eglMakeCurrent, (EGLDisplay, EGLSurface, EGLSurface, EGLContext))                                            \
+    F(EGLDisplay, eglGetDisplay, (EGLNativeDisplayType))                                                                       \
+    F(const char *, eglQueryString, (EGLDisplay, EGLint))                                                                      \
+    F(EGLint, eglGetError, (void))                                                                                             \
+    F(__eglMustCastToProperFunctionPointerType, eglGetProcAddress, (const char *))
+
+typedef struct egl_platform {
+    platform base;
+    void *egl_library, *gles_library;
+#define MEMBER(type, name, parameters) type(EGLAPIENTRY *name) parameters;
+    EGL_FUNCTIONS(MEMBER)
+#undef MEMBER
+    EGLDisplay display;
+    EGLSurface surface;
+    EGLContext context;
+    int was_lost;
+} egl_platform;
+
+extern const platform_kind platform_egl;
+
+/* A whole word of a list. */
+static int has_word(const char *list, const char *word)
+{
+    const size_t length = strlen(word);
+
+    for (const char *at = list; at && (at = strstr(at, word)) != NULL; at += length)
+        if ((at == list || at[-1] == ' ') && (at[length] == ' ' || at[length] == '\0'))
+            return 1;
+    return 0;
+}
+
+static const char *load(egl_platform *e)
+{
+    static const char *const egl_names[] = {"libEGL.so.1", "libEGL.so", NULL};
+    static const char *const gles_names[] = {"libGLESv2.so.2", "libGLESv2.so", NULL};
+
+    e->egl_library = platform_library(egl_names);
+    if (!e->egl_library)
+        return "there is no libEGL.so.1";
+    e->gles_library = platform_library(gles_names); /* without it functions come from eglGetProcAddress */
+#define LOAD(type, name, parameters)                                                                                           \
+    e->name = (type(EGLAPIENTRY *) parameters)platform_symbol(e->egl_library, #name);                                          \
+    if (!e->name)                                                                                                              \
+        return "libEGL has no " #name;
+    EGL_FUNCTIONS(LOAD)
+#undef LOAD
+    return NULL;
+}
+
+static EGLDisplay display_of(egl_platform *e, int way)
+{
+    const char *const extensions = e->eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    const PFNEGLGETPLATFORMDISPLAYEXTPROC get =
+        (PFNEGLGETPLATFORMDISPLAYEXTPROC)(has_word(extensions, "EGL_EXT_platform_base")
+                                              ? e->eglGetProcAddress("eglGetPlatformDisplayEXT")
+                                              : NULL);
+
+    if (way == 0)
+        return get && has_word(extensions, "EGL_MESA_platform_surfaceless")
+                   ? get(EGL_PLATFORM_SURFACELESS_MESA, (void *)EGL_DEFAULT_DISPLAY, NULL)
+                   : EGL_NO_DISPLAY;
+    if (way == 1) {
+        const PFNEGLQUERYDEVICESEXTPROC query =
+            (PFNEGLQUERYDEVICESEXTPROC)(has_word(extensions, "EGL_EXT_device_enumeration") ||
+                                                has_word(extensions, "EGL_EXT_device_base")
+                                            ? e->eglGetProcAddress("eglQueryDevicesEXT")
+                                            : NULL);
+        EGLDeviceEXT device;
+        EGLint count = 0;
+
+        if (!get || !query || !has_word(extensions, "EGL_EXT_platform_device") || !query(1, &device, &count) || count < 1)
+            return EGL_NO_DISPLAY;
+        return get(EGL_PLATFORM_DEVICE_EXT, device, NULL);
+    }
+    return e->eglGetDisplay(EGL_DEFAULT_DISPLAY);
+}
+
+/* Config, surface and context on an initialised display. Returns NULL or what failed. */
+static const char *make(egl_platform *e, const platform_desc *d)
+{
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT,
+                             EGL_RED_SIZE, d->red_bits, EGL_GREEN_SIZE, d->green_bits, EGL_BLUE_SIZE, d->blue_bits,
+                             EGL_ALPHA_SIZE, d->alpha_bits, EGL_DEPTH_SIZE, d->depth_bits,
+                             EGL_STENCIL_SIZE, d->stencil_bits, EGL_SAMPLES, 0, EGL_NONE};
+    const EGLint size[] = {EGL_WIDTH, (EGLint)d->width, EGL_HEIGHT, (EGLint)d->height, EGL_NONE};
+    const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
+    const EGLint names[6] = {EGL_RED_SIZE, EGL_GREEN_SIZE, EGL_BLUE_SIZE, EGL_ALPHA_SIZE, EGL_DEPTH_SIZE, EGL_STENCIL_SIZE};
+    int *const bits[6] = {&e->base.actual.red_bits, &e->base.actual.green_bits, &e->base.actual.blue_bits,
+                          &e->base.actual.alpha_bits, &e->base.actual.depth_bits, &e->base.actual.stencil_bits};
+    EGLConfig config;
+    EGLint count = 0;
+
+    if (!e->eglBindAPI(EGL_OPENGL_ES_API))
+        return "it has no OpenGL ES";
+    if (!e->eglChooseConfig(e->display, wanted, &config, 1, &count) || count < 1)
+        return "it has no config with the wanted bits";
+    e->surface = e->eglCreatePbufferSurface(e->display, config, size);
+    if (e->surface == EGL_NO_SURFACE)
+        return "it refuses a pbuffer of that size";
+    e->context = e->eglCreateContext(e->display, config, EGL_NO_CONTEXT, version);
+    if (e->context == EGL_NO_CONTEXT)
+        return "it refuses an OpenGL ES 2.0 context";
+    if (!e->eglMakeCurrent(e->display, e->surface, e->surface, e->context))
+        return "it does not make the context current";
+    e->base.actual = *d;
+    for (int i = 0; i < 6; i++)
+        e->eglGetConfigAttrib(e->display, config, names[i], bits[i]);
+    return NULL;
+}
+
+static void close_display(egl_platform *e)
+{
+    if (e->display == EGL_NO_DISPLAY)
+        return;
+    e->eglMakeCurrent(e->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (e->context != EGL_NO_CONTEXT)
+        e->eglDestroyContext(e->display, e->context);
+    if (e->surface != EGL_NO_SURFACE)
+        e->eglDestroySurface(e->display, e->surface);
+    e->eglTerminate(e->display);
+    e->display = EGL_NO_DISPLAY;
+    e->context = EGL_NO_CONTEXT;
+    e->surface = EGL_NO_SURFACE;
+}
+
+static void destroy(platform *p)
+{
+    egl_platform *e = (egl_platform *)p;
+
+    if (e->egl_library)
+        close_display(e);
+    platform_release(e->gles_library);
+    platform_release(e->egl_library);
+    free(e);
+}
+
+static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE])
+{
+    static const char *const ways[] = {"surfaceless", "device", "default"};
+    egl_platform *e = calloc(1, sizeof *e);
+    const char *failure = e ? load(e) : "no memory";
+    size_t length = 0;
+
+    if (failure) {
+        snprintf(message, PLATFORM_MESSAGE, "%s", failure);
+        if (e) {
+            platform_release(e->gles_library);
+            platform_release(e->egl_library);
+            free(e);
+        }
+        return NULL;
+    }
+    e->base.kind = &platform_egl;
+    e->display = EGL_NO_DISPLAY;
+    for (int way = 0; way < 3; way++) {
+        const EGLDisplay display = display_of(e, way);
+
+        if (display == EGL_NO_DISPLAY) {
+            failure = "there is none";
+        } else if (!e->eglInitialize(display, NULL, NULL)) {
+            failure = "it does not start";
+        } else {
+            e->display = display;
+            failure = make(e, desc);
+            if (!failure) {
+                e->base.detail = ways[way];
+                return &e->base;
+            }
+            close_display(e);
+        }
+        if (length < PLATFORM_MESSAGE)
+            length += (size_t)snprintf(message + length, PLATFORM_MESSAGE - length, "%s%s display: %s (0x%04x)",
+                                       length ? ", " : "", ways[way], failure, (unsigned)e->eglGetError());
+    }
+    destroy(&e->base);
+    return NULL;
+}
+
+static int make_current(platform *p)
+{
+    egl_platform *e = (egl_platform *)p;
+
+    if (e->eglMakeCurrent(e->display, e->surface, e->surface, e->context))
+        return 1;
+    e->was_lost |= e->eglGetError() == EGL_CONTEXT_LOST;
+    return 0;
+}
+
+static int lost(platform *p)
+{
+    return !make_current(p) && ((egl_platform *)p)->was_lost;
+}
+
+static void (*get_proc(platform *p, const char *name))(void)
+{
+    egl_platform *e = (egl_platform *)p;
+    void (*const core)(void) = e->gles_library ? platform_symbol(e->gles_library, name) : NULL;
+
+    return core ? core : e->eglGetProcAddress(name);
+}
+
+const platform_kind platform_egl = {"egl", create, make_current, get_proc, lost, destroy};

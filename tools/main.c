@@ -1,0 +1,86 @@
+/* main.c - the command `gnomon`: finds the sub-command. */
+#include "command.h"
+
+#include <string.h>
+
+#include "gnomon.h"
+
+const char help_methods[] = "usage: gnomon methods\n"
+                            "\n"
+                            "Lists the methods by name: whether they are exact, what they are, what they need.\n";
+
+int command_methods(int count, char **arguments)
+{
+    if (count > 0) {
+        say("methods: takes no arguments (%s)", arguments[0]);
+        return EXIT_USAGE;
+    }
+    for (int m = 0; m < GN_METHOD_COUNT; m++) {
+        const gn_method_info *info = gn_method_describe((gn_method)m);
+
+        printf("%-8s %-8s %s\n%-17s needs: %s\n", info->name, info->exact ? "exact" : "inexact", info->summary, "", info->needs);
+    }
+    return EXIT_DONE;
+}
+
+static const struct {
+    const char *name;
+    int (*run)(int count, char **arguments);
+    const char *help, *summary;
+} commands[] = {
+    {"render", command_render, help_render, "draw a glTF scene with shadows into a picture"},
+    {"probe", command_probe, help_probe, "what the GL contexts of this machine are and can do"},
+    {"methods", command_methods, help_methods, "the methods, and what each needs"},
+};
+enum { COMMANDS = sizeof commands / sizeof commands[0] };
+
+static int find(const char *name)
+{
+    for (int i = 0; i < COMMANDS; i++)
+        if (strcmp(commands[i].name, name) == 0)
+            return i;
+    say("no such command: see `gnomon help` (%s)", name);
+    return -1;
+}
+
+static int help(const char *name)
+{
+    int i;
+
+    if (!name) {
+        printf("usage: gnomon COMMAND [arguments]\n\nReal-time shadows in OpenGL ES 2.0.\n\n");
+        for (i = 0; i < COMMANDS; i++)
+            printf("  %-10s %s\n", commands[i].name, commands[i].summary);
+        printf("  %-10s %s\n\n`gnomon COMMAND --help` says more. `gnomon --version` prints the version.\n", "help",
+               "this text, or that of a command");
+        return EXIT_DONE;
+    }
+    i = find(name);
+    if (i < 0)
+        return EXIT_USAGE;
+    fputs(commands[i].help, stdout);
+    return EXIT_DONE;
+}
+
+int main(int count, char **arguments)
+{
+    int i;
+
+    if (count < 2) {
+        say("a command is missing: see `gnomon help`");
+        return EXIT_USAGE;
+    }
+    if (strcmp(arguments[1], "help") == 0 || strcmp(arguments[1], "--help") == 0)
+        return help(count > 2 ? arguments[2] : NULL);
+    if (strcmp(arguments[1], "--version") == 0) {
+        printf("gnomon %s\n", gn_version());
+        return EXIT_DONE;
+    }
+    i = find(arguments[1]);
+    if (i < 0)
+        return EXIT_USAGE;
+    for (int a = 2; a < count && strcmp(arguments[a], "--") != 0; a++)
+        if (strcmp(arguments[a], "--help") == 0)
+            return help(arguments[1]);
+    return commands[i].run(count - 2, arguments + 2);
+}

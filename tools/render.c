@@ -1,0 +1,329 @@
+/* render.c - `gnomon render`: a glTF scene, lit, with exact shadows, into a picture; its masks, its plan, what it cost. */
+#define _POSIX_C_SOURCE 200809L
+#include "command.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "options.h"
+#include "report.h"
+#include "stage.h"
+
+const char help_render[] =
+    "usage: gnomon render SCENE.gltf|SCENE.glb [options]\n"
+    "\n"
+    "Draws a glTF 2.0 scene with pixel-exact shadows in OpenGL ES 2.0, without a window.\n"
+    "\n"
+    "  -o FILE.png           the lit frame\n"
+    "  --size WxH            [800x600]\n"
+    "  --mask-dir DIR        writes light0.png, light1.png ... into DIR: 255 lit, 0 shadowed, alpha where a surface is\n"
+    "  --method NAME         see `gnomon methods` [auto]\n"
+    "  --platform NAME       egl or osmesa [the first that works]\n"
+    "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
+    "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
+    "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
+    "  --show WHAT           over the frame: volumes, silhouette; or the mask\n"
+    "  --plan FILE.json      the plan of the last frame\n"
+    "  --report FILE.json    driver, lights, counts and times\n"
+    "  --help                this text\n";
+
+typedef struct job {
+    const char *frame, *mask_dir, *method_name, *platform, *show, *plan, *report;
+    long size[2], frames;
+    double spin, exposure;
+    gn_method method;
+} job;
+
+static double now_ms(void)
+{
+    static const double per_ms = 1000.0;
+    const gn_port port = gn_port_libc();
+
+    return (double)port.now_us(NULL) / per_ms;
+}
+
+/* A linear value of 0 to 255 as sRGB. */
+static void make_srgb_table(uint8_t table[256])
+{
+    for (int i = 0; i < 256; i++) {
+        const double x = i / 255.0, y = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
+
+        table[i] = (uint8_t)lrint(255.0 * y);
+    }
+}
+
+static int write_frame(stage *s, const char *path)
+{
+    const size_t pixels = (size_t)s->target.width * s->target.height;
+    uint8_t *rgba = malloc(4 * pixels), table[256];
+    int ok = rgba && platform_read_back(s->platform, rgba);
+
+    if (!ok)
+        say("%s: the frame cannot be read back", path);
+    make_srgb_table(table);
+    for (size_t i = 0; ok && i < pixels; i++)
+        for (size_t c = 0; c < 3; c++)
+            rgba[3 * i + c] = table[rgba[4 * i + c]];
+    ok = ok && write_png(path, rgba, s->target.width, s->target.height, 3);
+    free(rgba);
+    return ok;
+}
+
+static int write_mask(stage *s, const char *dir, uint32_t light)
+{
+    const size_t pixels = (size_t)s->target.width * s->target.height, length = strlen(dir) + 40;
+    uint8_t *rgba = malloc(4 * pixels);
+    char *path = malloc(length);
+    int ok = rgba && path && platform_read_back(s->platform, rgba);
+
+    if (!ok)
+        say("%s: the mask of light %u cannot be read back", dir, (unsigned)light);
+    for (size_t i = 0; ok && i < pixels; i++) {
+        const uint8_t lit = rgba[4 * i] > 127 ? 255 : 0, visible = rgba[4 * i + 1] > 127 ? 255 : 0;
+
+        rgba[2 * i] = lit;
+        rgba[2 * i + 1] = visible;
+    }
+    if (ok) {
+        snprintf(path, length, "%s/light%u.png", dir, (unsigned)light);
+        ok = write_png(path, rgba, s->target.width, s->target.height, 2);
+    }
+    free(path);
+    free(rgba);
+    return ok;
+}
+
+static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
+{
+    if (mkdir(j->mask_dir, 0777) != 0 && errno != EEXIST) {
+        say("%s: cannot be made: %s", j->mask_dir, strerror(errno));
+        return EXIT_FAILED;
+    }
+    for (uint32_t i = 0; i < s->scene->light_count; i++) {
+        const int status = stage_plan(s, j->method, i, 1, 1, message);
+
+        if (status != 0 || !stage_draw_mask(s, i, message)) {
+            say("light %u: %s", (unsigned)i, message);
+            return status ? status : EXIT_FAILED;
+        }
+        if (!write_mask(s, j->mask_dir, i))
+            return EXIT_FAILED;
+    }
+    return EXIT_DONE;
+}
+
+static int write_plan(const stage *s, const char *path)
+{
+    const size_t length = gn_plan_json(s->plan, NULL, 0);
+    char *text = malloc(length + 1);
+    fresh_file f;
+    int ok = 0;
+
+    if (!text)
+        say("%s: no memory for the plan", path);
+    else if (fresh_open(&f, path)) {
+        gn_plan_json(s->plan, text, length + 1);
+        ok = fresh_close(&f, fwrite(text, 1, length, f.file) == length);
+    }
+    free(text);
+    return ok;
+}
+
+/* One frame, drawn and waited for. Returns 0 or an exit status. */
+static int timed_frame(stage *s, const job *j, int casting, double *ms, char message[SCENE_MESSAGE])
+{
+    const double start = now_ms();
+    const int status = stage_plan(s, j->method, 0, (uint32_t)s->scene->light_count, casting, message);
+
+    if (status != 0)
+        return status;
+    if (j->show && casting && strcmp(j->show, "mask") == 0) {
+        if (!stage_draw_shares(s, message))
+            return EXIT_FAILED;
+    } else if (!stage_draw_lit(s, 0, message)) {
+        return EXIT_FAILED;
+    }
+    s->gl->glFinish();
+    *ms = now_ms() - start;
+    return EXIT_DONE;
+}
+
+/* The frame three ways: in one pass without shadows, in its passes without volumes, and as it is, which stays. */
+static int measured_frame(stage *s, const job *j, size_t frame, measured *m, char message[SCENE_MESSAGE])
+{
+    const int full = j->report != NULL;
+    double start, unused;
+    gl_counts before, after;
+    uint64_t allocations;
+    int status = EXIT_DONE;
+
+    if (full) {
+        status = timed_frame(s, j, 0, &m->ms.same_passes[frame], message);
+        if (status)
+            return status;
+        start = now_ms();
+        stage_draw_plain(s);
+        s->gl->glFinish();
+        m->ms.one_pass[frame] = now_ms() - start;
+    }
+    before = counted_gl_read();
+    allocations = s->allocations;
+    status = timed_frame(s, j, 1, full ? &m->ms.frame[frame] : &unused, message);
+    after = counted_gl_read();
+    m->allocations += frame ? s->allocations - allocations : 0;
+    m->counts.draws = after.draws - before.draws;
+    m->counts.vertices = after.vertices - before.vertices;
+    m->counts.indices = after.indices - before.indices;
+    m->counts.bytes_sent = after.bytes_sent - before.bytes_sent;
+    m->counts.state_changes = after.state_changes - before.state_changes;
+    return status;
+}
+
+static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
+{
+    const size_t frames = (size_t)j->frames;
+
+    m->frames = (uint32_t)frames;
+    m->ms.count = frames;
+    m->ms.frame = calloc(frames, sizeof(double));
+    m->ms.same_passes = calloc(frames, sizeof(double));
+    m->ms.one_pass = calloc(frames, sizeof(double));
+    if (!m->ms.frame || !m->ms.same_passes || !m->ms.one_pass) {
+        snprintf(message, SCENE_MESSAGE, "no memory for the times of %lu frames", (unsigned long)frames);
+        return EXIT_FAILED;
+    }
+    for (size_t i = 0; i < frames; i++) {
+        int status;
+
+        stage_pose(s, (double)i / 60.0, (double)i * j->spin);
+        /* frames whose picture nobody sees are drawn only to be measured */
+        if (!j->report && i + 1 < frames)
+            continue;
+        status = measured_frame(s, j, i, m, message);
+        if (status)
+            return status;
+        if (s->platform->kind->lost(s->platform)) {
+            snprintf(message, SCENE_MESSAGE, "the GL context was lost in frame %lu", (unsigned long)i);
+            return EXIT_FAILED;
+        }
+    }
+    return EXIT_DONE;
+}
+
+static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
+{
+    if (s->plan->singular_casters)
+        say("%u casters have a flattening transform and cast nothing", (unsigned)s->plan->singular_casters);
+    if (j->show && strcmp(j->show, "volumes") == 0)
+        stage_show_volumes(s);
+    if (j->show && strcmp(j->show, "silhouette") == 0)
+        stage_show_silhouettes(s);
+    if (j->frame && !write_frame(s, j->frame))
+        return EXIT_FAILED;
+    if (j->plan && !write_plan(s, j->plan))
+        return EXIT_FAILED;
+    if (j->report) {
+        if (!stage_count_fragments(s, &m->fragments_rasterised, &m->fragments_passed)) {
+            say("%s: fragments cannot be counted", j->report);
+            return EXIT_FAILED;
+        }
+        if (!write_report(j->report, s, m))
+            return EXIT_FAILED;
+    }
+    if (s->gl->glGetError() != GL_NO_ERROR) {
+        say("the GL reports an error");
+        return EXIT_FAILED;
+    }
+    return j->mask_dir ? write_masks(s, j, message) : EXIT_DONE;
+}
+
+static int run(const job *j, const char *path)
+{
+    const stage_options options = {j->platform, (uint32_t)j->size[0], (uint32_t)j->size[1], j->exposure, 24, 8};
+    char message[SCENE_MESSAGE] = "";
+    measured m;
+    scene loaded;
+    stage *s = NULL;
+    int status;
+
+    memset(&m, 0, sizeof m);
+    if (!scene_load(&loaded, path, say_line, message)) {
+        say("%s", message);
+        return EXIT_FAILED;
+    }
+    if (!scene_ensure_view(&loaded, (double)j->size[0] / (double)j->size[1], say_line)) {
+        say("%s: no memory", path);
+        scene_free(&loaded);
+        return EXIT_FAILED;
+    }
+    status = stage_open(&s, &loaded, &options, message);
+    if (status == EXIT_DONE)
+        status = draw_frames(s, j, &m, message);
+    if (status != EXIT_DONE)
+        say("%s: %s", path, message);
+    else
+        status = write_outputs(s, j, &m, message);
+    free(m.ms.frame);
+    free(m.ms.same_passes);
+    free(m.ms.one_pass);
+    stage_close(s);
+    scene_free(&loaded);
+    return status;
+}
+
+static int one_of(const char *word, const char *const *words)
+{
+    for (; *words; words++)
+        if (strcmp(word, *words) == 0)
+            return 1;
+    return 0;
+}
+
+int command_render(int count, char **arguments)
+{
+    static const char *const shows[] = {"volumes", "silhouette", "mask", NULL};
+    job j = {NULL, NULL, "auto", NULL, NULL, NULL, NULL, {800, 600}, 1, 0.0, 0.0, GN_METHOD_AUTO};
+    const option options[] = {
+        {"-o", OPTION_TEXT, &j.frame, 0, 0},
+        {"--size", OPTION_SIZE, j.size, 1, 16384},
+        {"--mask-dir", OPTION_TEXT, &j.mask_dir, 0, 0},
+        {"--method", OPTION_TEXT, &j.method_name, 0, 0},
+        {"--platform", OPTION_TEXT, &j.platform, 0, 0},
+        {"--frames", OPTION_WHOLE, &j.frames, 1, 1000000},
+        {"--spin", OPTION_NUMBER, &j.spin, -1e6, 1e6},
+        {"--exposure", OPTION_NUMBER, &j.exposure, 1e-12, 1e12},
+        {"--show", OPTION_TEXT, &j.show, 0, 0},
+        {"--plan", OPTION_TEXT, &j.plan, 0, 0},
+        {"--report", OPTION_TEXT, &j.report, 0, 0},
+    };
+    const int kept = parse_options(count, arguments, options, (int)(sizeof options / sizeof options[0]));
+
+    if (kept < 0)
+        return EXIT_USAGE;
+    if (kept != 1) {
+        say("render: takes one scene (%d given)", kept);
+        return EXIT_USAGE;
+    }
+    if (!j.frame && !j.mask_dir && !j.plan && !j.report) {
+        say("render: nothing to write: give -o, --mask-dir, --plan or --report (none given)");
+        return EXIT_USAGE;
+    }
+    j.method = gn_method_by_name(j.method_name);
+    if (j.method == GN_METHOD_COUNT) {
+        say("--method: no method has that name: see `gnomon methods` (%s)", j.method_name);
+        return EXIT_USAGE;
+    }
+    if (j.show && !one_of(j.show, shows)) {
+        say("--show: takes volumes, silhouette or mask (%s)", j.show);
+        return EXIT_USAGE;
+    }
+    for (int i = 0; j.platform && strcmp(j.platform, platform_kinds[i]->name) != 0;)
+        if (!platform_kinds[++i]) {
+            say("--platform: no platform has that name (%s)", j.platform);
+            return EXIT_USAGE;
+        }
+    return run(&j, arguments[0]);
+}

@@ -1,0 +1,224 @@
+/* stage.c - opens a context for a scene, poses it, and asks the library for the frame's plan. */
+#include "stage.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "counted_gl.h"
+#include "gn_matrix.h"
+
+/* The libc port, counting what the library asks for. */
+static void *counting_resize(void *user, void *block, size_t old_size, size_t new_size)
+{
+    uint64_t *allocations = user;
+    const gn_port libc_port = gn_port_libc();
+
+    *allocations += new_size != 0;
+    return libc_port.resize(NULL, block, old_size, new_size);
+}
+
+/* Irradiance of a light at a point, its brightest channel, cones left aside. */
+static double brightness(const scene_light *l, const double at[3])
+{
+    const double channel = fmax(l->color[0], fmax(l->color[1], l->color[2])) * l->intensity;
+    double square = 0.0, window = 1.0;
+
+    if (l->kind == SCENE_DIRECTIONAL)
+        return channel;
+    for (int i = 0; i < 3; i++)
+        square += (l->position[i] - at[i]) * (l->position[i] - at[i]);
+    if (l->range > 0.0)
+        window = fmax(0.0, 1.0 - square * square / (l->range * l->range * l->range * l->range));
+    return channel * window / fmax(square, 1e-4);
+}
+
+static double default_exposure(const stage *s)
+{
+    double brightest = 0.0;
+
+    for (size_t i = 0; i < s->scene->light_count; i++)
+        brightest = fmax(brightest, brightness(&s->scene->lights[i], s->centre));
+    return brightest > 0.0 ? 1.0 / brightest : 1.0;
+}
+
+static int refuse(stage **out, stage *s, int status)
+{
+    stage_close(s);
+    *out = NULL;
+    return status;
+}
+
+int stage_open(stage **out, scene *given, const stage_options *options, char message[SCENE_MESSAGE])
+{
+    const platform_desc wanted = {options->width, options->height, 8, 8, 8, 8, options->depth_bits, options->stencil_bits};
+    stage *s = calloc(1, sizeof *s);
+    gn_port port = gn_port_libc();
+    char why[PLATFORM_MESSAGE];
+
+    *out = NULL;
+    if (!s) {
+        snprintf(message, SCENE_MESSAGE, "stage: no memory");
+        return 1;
+    }
+    s->scene = given;
+    for (int i = 0; i < 3; i++)
+        s->centre[i] = 0.5 * (given->bounds_min[i] + given->bounds_max[i]);
+    s->exposure = options->exposure > 0.0 ? options->exposure : default_exposure(s);
+    s->platform = platform_open(options->platform, &wanted, why);
+    if (!s->platform) {
+        snprintf(message, SCENE_MESSAGE, "no context of %ux%u: %.400s", (unsigned)options->width, (unsigned)options->height, why);
+        return refuse(out, s, 3);
+    }
+    port.user = &s->allocations;
+    port.resize = counting_resize;
+    counted_gl_wrap(platform_get_proc, s->platform);
+    if (gn_context_create(&port, &s->context) != GN_OK) {
+        snprintf(message, SCENE_MESSAGE, "stage: no memory");
+        return refuse(out, s, 1);
+    }
+    if (gn_gles_create(s->context, counted_get_proc, NULL, &s->gles) != GN_OK) {
+        snprintf(message, SCENE_MESSAGE, "%s", gn_message(s->context));
+        return refuse(out, s, 3);
+    }
+    s->gl = gn_gles_functions(s->gles);
+    s->target = gn_gles_describe_target(s->gles, options->width, options->height);
+    if (!stage_upload(s, message))
+        return refuse(out, s, 1);
+    *out = s;
+    return 0;
+}
+
+void stage_close(stage *s)
+{
+    if (!s)
+        return;
+    stage_release(s);
+    gn_gles_destroy(s->gles);
+    gn_context_destroy(s->context);
+    platform_close(s->platform);
+    free(s);
+}
+
+/* About the vertical axis through the scene's centre. */
+static void spin(const stage *s, double degrees, double p[3], int is_point)
+{
+    const double a = degrees * 3.14159265358979323846 / 180.0;
+    const double x = p[0] - (is_point ? s->centre[0] : 0.0), z = p[2] - (is_point ? s->centre[2] : 0.0);
+
+    p[0] = x * cos(a) + z * sin(a) + (is_point ? s->centre[0] : 0.0);
+    p[2] = z * cos(a) - x * sin(a) + (is_point ? s->centre[2] : 0.0);
+}
+
+static void pose_light(stage *s, size_t index, double degrees)
+{
+    const scene_light *from = &s->scene->lights[index];
+    const int is_sun = from->kind == SCENE_DIRECTIONAL;
+    stage_light *to = &s->shading[index];
+    gn_light *light = &s->lights[index];
+
+    memset(light, 0, sizeof *light);
+    light->kind = is_sun ? GN_LIGHT_DIRECTIONAL : from->kind == SCENE_SPOT ? GN_LIGHT_SPOT : GN_LIGHT_POINT;
+    for (int i = 0; i < 3; i++) {
+        to->position[i] = from->position[i];
+        to->towards[i] = from->towards[i];
+        to->color[i] = (float)(from->color[i] * from->intensity * s->exposure);
+    }
+    if (degrees != 0.0) {
+        spin(s, degrees, to->position, 1);
+        spin(s, degrees, to->towards, 0);
+    }
+    for (int i = 0; i < 3; i++) {
+        light->position[i] = to->position[i];
+        light->towards[i] = to->towards[i];
+        to->shader_position[i] = (float)(is_sun ? to->towards[i] : to->position[i] - s->scene->camera.world[12 + i]);
+        to->axis[i] = (float)-to->towards[i];
+    }
+    to->shader_position[3] = is_sun ? 0.0f : 1.0f;
+    to->axis[3] = from->range > 0.0 ? (float)(1.0 / (from->range * from->range * from->range * from->range)) : 0.0f;
+    to->cone[0] = 0.0f;
+    to->cone[1] = 1.0f;
+    if (from->kind == SCENE_SPOT) {
+        const double scale = 1.0 / fmax(0.001, cos(from->inner) - cos(from->outer));
+
+        to->cone[0] = (float)scale;
+        to->cone[1] = (float)(-cos(from->outer) * scale);
+    }
+}
+
+void stage_pose(stage *s, double seconds, double spin_degrees)
+{
+    scene_pose(s->scene, seconds);
+    for (size_t i = 0; i < s->scene->light_count; i++)
+        pose_light(s, i, spin_degrees);
+}
+
+static void place_camera(const stage *s, gn_camera *camera)
+{
+    const scene_camera *from = &s->scene->camera;
+
+    memset(camera, 0, sizeof *camera);
+    memcpy(camera->world, from->world, sizeof camera->world);
+    camera->orthographic = from->orthographic;
+    camera->top = from->orthographic ? from->ymag : tan(0.5 * from->yfov);
+    camera->right = from->orthographic ? from->xmag : camera->top * s->target.width / s->target.height;
+    camera->bottom = -camera->top;
+    camera->left = -camera->right;
+    camera->znear = from->znear;
+    camera->zfar = from->zfar;
+}
+
+/* Closed and single-sided, or double-sided throughout, and nothing cut: each triangle that could be seen is drawn. */
+static unsigned flags_of(const stage *s, const scene_instance *instance, int casting)
+{
+    const scene_mesh *m = &s->scene->meshes[instance->mesh];
+    const gn_mesh_info *info = gn_mesh_get_info(s->meshes[instance->mesh].mesh);
+    const int closed = info->solid_part_count == info->part_count;
+    unsigned flags = GN_DRAWN | (instance->casts && casting ? GN_CASTS : 0u) | (instance->receives ? GN_RECEIVES : 0u);
+
+    for (size_t r = 0; r < m->range_count; r++) {
+        const scene_material *material = &s->scene->materials[m->ranges[r].material];
+
+        if (material->alpha == SCENE_MASK || (!material->double_sided && !closed))
+            flags &= ~(unsigned)GN_DRAWN;
+    }
+    return flags;
+}
+
+int stage_plan(stage *s, gn_method method, uint32_t first_light, uint32_t light_count, int casting, char message[SCENE_MESSAGE])
+{
+    gn_scene frame;
+    gn_result result;
+    size_t size;
+
+    memset(&frame, 0, sizeof frame);
+    place_camera(s, &frame.camera);
+    for (size_t i = 0; i < s->scene->instance_count; i++) {
+        const scene_instance *instance = &s->scene->instances[i];
+
+        s->objects[i].mesh = s->meshes[instance->mesh].mesh;
+        memcpy(s->objects[i].model, instance->world, sizeof s->objects[i].model);
+        s->objects[i].flags = flags_of(s, instance, casting);
+    }
+    frame.lights = s->lights + first_light;
+    frame.light_count = light_count;
+    frame.objects = s->objects;
+    frame.object_count = (uint32_t)s->scene->instance_count;
+    frame.target = s->target;
+    frame.method = method;
+    size = gn_plan_bound(&frame);
+    if (size > s->plan_size) {
+        free(s->plan_memory);
+        s->plan_memory = malloc(size);
+        s->plan_size = s->plan_memory ? size : 0;
+    }
+    if (!s->plan_memory) {
+        snprintf(message, SCENE_MESSAGE, "plan: no memory for %lu bytes", (unsigned long)size);
+        return 1;
+    }
+    result = gn_plan_make(s->context, &frame, s->plan_memory, s->plan_size, &s->plan);
+    if (result != GN_OK)
+        snprintf(message, SCENE_MESSAGE, "%s", gn_message(s->context));
+    return result == GN_OK ? 0 : result == GN_E_DEVICE ? 3 : 1;
+}

@@ -1,0 +1,123 @@
+/* stage.h - the demo stage: a host of the library that draws glTF scenes with shaders of its own, under the library's masks.
+ *
+ * It owns a platform's context, the GL objects of a scene, and the memory of the plan. It holds no shadow logic: it asks for a
+ * plan and draws what the walk tells it to. */
+#ifndef STAGE_H
+#define STAGE_H
+#include "gnomon_gles.h"
+#include "platform.h"
+#include "scene.h"
+
+#define STAGE_LIGHTS 4 /* lights in one shader; more are added in further passes */
+
+typedef struct stage_program {
+    GLuint name; /* 0: not made yet */
+    GLint clip, world, normal, base, flat, ambient, emits, emissive, cutoff, shininess, specular, metallic, two_sided, texture;
+    GLint light_position, light_color, light_axis, light_cone;
+} stage_program;
+
+/* What a program does beyond placing vertices: an index into stage.programs. */
+enum { STAGE_TEXTURED = 1, STAGE_CUT = 2, STAGE_FLAT = 4, STAGE_LIGHT_SHIFT = 3, STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 3 };
+
+/* Part of a range that 16-bit indices reach. */
+typedef struct stage_batch {
+    uint32_t first_vertex, first_index, triangle_count, first_triangle; /* first_triangle: of the scene's mesh */
+    int material;
+} stage_batch;
+
+typedef struct stage_mesh {
+    gn_mesh *mesh; /* the solid triangles */
+    GLuint vertices, indices;
+    uint16_t *index_copy; /* to pick triangles from */
+    stage_batch *batches;
+    size_t batch_count;
+} stage_mesh;
+
+/* A light as it stands in this frame, and as shaders want it. */
+typedef struct stage_light {
+    double position[3], towards[3];
+    float shader_position[4], color[3], axis[4], cone[2];
+} stage_light;
+
+typedef struct stage {
+    scene *scene;
+    platform *platform;
+    gn_context *context;
+    gn_gles *gles;
+    const gn_gl *gl;
+    gn_target target;
+    uint64_t allocations; /* by the library so far */
+
+    stage_mesh *meshes;
+    GLuint *textures;
+    stage_program programs[STAGE_PROGRAMS], lines;
+    GLuint picked; /* indices of picked triangles, or positions of lines */
+    void *scratch; /* for them: the largest mesh's */
+    int8_t *facing;
+    gn_object *objects; /* [scene.instance_count] */
+    gn_light *lights;
+    stage_light *shading;
+    double centre[3]; /* of the scene at its start */
+    double exposure;
+    void *plan_memory;
+    size_t plan_size;
+    const gn_plan *plan;
+} stage;
+
+typedef struct stage_options {
+    const char *platform; /* NULL: the first that works */
+    uint32_t width, height;
+    double exposure; /* 0: the brightest light gives 1 at the scene's centre */
+    int depth_bits, stencil_bits;
+} stage_options;
+
+/* Opens a context and uploads the scene. Returns 0, or an exit status of the command (1 or 3) with a message; *out is then
+ * NULL. The scene stays the caller's and must outlive the stage. */
+int stage_open(stage **out, scene *s, const stage_options *options, char message[SCENE_MESSAGE]);
+void stage_close(stage *s);
+
+/* Poses scene, lights and camera: seconds into the animation, the lights turned about the vertical axis through the centre. */
+void stage_pose(stage *s, double seconds, double spin_degrees);
+
+/* Plans the lights first .. first + count - 1. casting 0: the same passes, and no volumes. Returns 0, or an exit status of the
+ * command (1 or 3) with a message. */
+int stage_plan(stage *s, gn_method method, uint32_t first_light, uint32_t light_count, int casting,
+               char message[SCENE_MESSAGE]);
+
+/* ---- Walking the plan: each draws one frame into the target ---- */
+
+/* The lit frame. first_light: of the plan, in the scene. Returns 0 with a message when the walk does not start. */
+int stage_draw_lit(stage *s, uint32_t first_light, char message[SCENE_MESSAGE]);
+/* Red where the plan's one light reaches, green where a surface is; every colour else 0. */
+int stage_draw_mask(stage *s, uint32_t light, char message[SCENE_MESSAGE]);
+/* Grey: the share of the plan's lights that reach each pixel. */
+int stage_draw_shares(stage *s, char message[SCENE_MESSAGE]);
+/* One pass with all lights and no shadows, without the library. */
+void stage_draw_plain(stage *s);
+
+/* Over the frame that was just drawn: volumes, or silhouettes as lines. */
+void stage_show_volumes(stage *s);
+void stage_show_silhouettes(stage *s);
+
+/* Counts fragments of the plan's volumes in the frame that was just drawn, spoiling its colours: all that are rasterised, and
+ * those in front of what is seen (they pass the depth test). 1, or 0 when memory or the GL failed. */
+int stage_count_fragments(stage *s, uint64_t *rasterised, uint64_t *passed);
+
+/* ---- stage_draw.c, used by the walks ---- */
+
+typedef enum stage_pass { STAGE_PASS_SOLID, STAGE_PASS_BLEND } stage_pass;
+
+typedef struct stage_look {
+    int ambient;          /* with ambient and emitted light */
+    uint32_t first_light, light_count; /* in the scene */
+    const float *flat;    /* one colour instead, or NULL */
+    int receivers;        /* 1: objects that receive; 0: the rest; -1: all */
+    int facing_light;     /* only triangles whose seen side looks at this light; -1: all */
+} stage_look;
+
+void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look);
+int stage_upload(stage *s, char message[SCENE_MESSAGE]);      /* stage_upload.c */
+void stage_release(stage *s);                                 /* stage_upload.c */
+stage_program *stage_use(stage *s, unsigned kind);            /* stage_program.c; NULL when a driver refuses it */
+stage_program *stage_use_lines(stage *s);
+#endif
