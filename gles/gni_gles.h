@@ -15,6 +15,7 @@ typedef struct gni_state {
     GLuint stencil_write;
     gni_face front, back;
     GLenum blend_source, blend_destination; /* 0, 0: no blending */
+    int offset; /* depth steps by which triangles are moved away from the eye */
 } gni_state;
 
 typedef struct gni_upload {
@@ -35,7 +36,7 @@ struct gn_gles {
     const gn_plan *plan; /* the one begun last */
     uint32_t at;         /* its next step */
     gni_state state;     /* what was last sent */
-    unsigned tests_on;   /* depth 1, stencil 2, blending 4 */
+    unsigned tests_on;   /* depth 1, stencil 2, blending 4, offset 8 */
     int state_is_known;
 };
 

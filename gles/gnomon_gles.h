@@ -23,8 +23,8 @@
  *     FINAL      depth test LESS, depth not written; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA; stencil test off
  *     in each    viewport 0, 0, width, height of the target; colour written; culling, scissor test and polygon offset off;
  *                front face CCW; blend equation ADD; no program in use; no buffer bound; all vertex attribute arrays disabled
- *     on exit    after gn_gles_next() has returned 0: all of these, and clear depth and clear stencil, are as in a new
- *                context, but the viewport, which is the target's. Nothing else was ever touched: textures, dither, clear colour,
+ *     on exit    after gn_gles_next() has returned 0: all of these, polygon offset, clear depth and clear stencil are as in
+ *                a new context, but the viewport, which is the target's. Nothing else was ever touched: textures, dither, clear colour,
  *                pixel store, attribute pointers but that of array 0
  *
  * Errors come as gn_result, sentences from gn_message() of the context; drivers' logs go to its port. Walking allocates

@@ -27,12 +27,13 @@ static int faces_differ(const gni_face *a, const gni_face *b)
 void gni_set_state(gn_gles *g, const gni_state *wanted)
 {
     const gn_gl *gl = &g->gl;
-    const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) | (wanted->blend_source ? 4u : 0u);
+    const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) | (wanted->blend_source ? 4u : 0u) |
+                        (wanted->offset ? 8u : 0u);
     gni_state *last = &g->state; /* what GL has; a detail never sent since a reset is 0 */
     const int all = !g->state_is_known;
 
     if (all || on != g->tests_on) {
-        const unsigned changed = all ? 7u : on ^ g->tests_on;
+        const unsigned changed = all ? 15u : on ^ g->tests_on;
 
         if (changed & 1)
             switch_capability(gl, GL_DEPTH_TEST, (on & 1) != 0);
@@ -40,6 +41,8 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
             switch_capability(gl, GL_STENCIL_TEST, (on & 2) != 0);
         if (changed & 4)
             switch_capability(gl, GL_BLEND, (on & 4) != 0);
+        if (changed & 8)
+            switch_capability(gl, GL_POLYGON_OFFSET_FILL, (on & 8) != 0);
     }
     if (all || wanted->color_write != last->color_write)
         gl->glColorMask(wanted->color_write, wanted->color_write, wanted->color_write, wanted->color_write);
@@ -70,6 +73,10 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         last->blend_source = wanted->blend_source;
         last->blend_destination = wanted->blend_destination;
     }
+    if (wanted->offset && wanted->offset != last->offset) {
+        gl->glPolygonOffset(0.0f, (GLfloat)wanted->offset);
+        last->offset = wanted->offset;
+    }
     last->color_write = wanted->color_write;
     last->depth_write = wanted->depth_write;
     last->stencil_write = wanted->stencil_write;
@@ -85,7 +92,6 @@ void gni_reset_state(gn_gles *g)
     g->state_is_known = 0;
     gl->glDisable(GL_CULL_FACE);
     gl->glDisable(GL_SCISSOR_TEST);
-    gl->glDisable(GL_POLYGON_OFFSET_FILL);
     gl->glFrontFace(GL_CCW);
     gl->glBlendEquation(GL_FUNC_ADD);
     for (GLuint i = 0; i < g->attribute_arrays; i++)
@@ -95,7 +101,7 @@ void gni_reset_state(gn_gles *g)
 void gni_leave_state(gn_gles *g)
 {
     static const gni_state fresh = {GL_TRUE, GL_TRUE, GL_LESS, GL_ALWAYS, ~0u, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP},
-                                    GL_ONE, GL_ZERO};
+                                    GL_ONE, GL_ZERO, 0};
     const gn_gl *gl = &g->gl;
 
     gni_reset_state(g);
@@ -103,6 +109,7 @@ void gni_leave_state(gn_gles *g)
     gl->glDisable(GL_DEPTH_TEST);
     gl->glDisable(GL_STENCIL_TEST);
     gl->glDisable(GL_BLEND);
+    gl->glPolygonOffset(0.0f, 0.0f);
     gl->glClearDepthf(1.0f);
     gl->glClearStencil(0);
     gl->glUseProgram(0);

@@ -18,15 +18,18 @@ enum { POINTS, LINES, LINE_LOOP, LINE_STRIP, TRIANGLES, TRIANGLE_STRIP, TRIANGLE
 #define NORMALIZED    (GLTF_FLOAT | GLTF_UINT8 | GLTF_UINT16 | GLTF_NORMALIZED)
 #define VERTEX_UNUSED UINT32_MAX
 
-/* One primitive as read. */
+/* One primitive, its attributes first as its accessors have them, then only those of gathered vertices. */
 typedef struct primitive {
     char where[GLTF_WHERE];
     int material;
-    uint32_t accessor_count;                   /* vertices in its accessors */
-    float *positions, *normals, *uvs, *colors; /* [accessor_count][3, 3, 2, color_width]; NULL but for the first */
+    uint32_t accessor_count; /* vertices in its accessors */
+    float *positions;        /* [accessor_count, then vertex_count][3] */
+    float *normals;          /* [..][3], this and the following NULL where it has none */
+    float *uvs;              /* [..][2] */
+    float *colors;           /* [..][color_width] */
     unsigned color_width;
     uint32_t triangle_count;
-    uint32_t *indices; /* [triangle_count][3], into the gathered vertices */
+    uint32_t *indices; /* [triangle_count][3] */
     uint32_t vertex_count;
     uint32_t *sources; /* [vertex_count] which vertex of the accessors each gathered one is */
 } primitive;
@@ -178,6 +181,23 @@ static int choose_vertices(gltf *g, primitive *p)
     return 1;
 }
 
+/* Only what is gathered stays in memory: a large set of accessors may serve many primitives. */
+static int compact(gltf *g, const primitive *p, unsigned width, float **values)
+{
+    float *kept;
+
+    if (!*values)
+        return 1;
+    kept = gltf_alloc(g, p->vertex_count, width * sizeof *kept);
+    if (!kept)
+        return 0;
+    for (size_t i = 0; i < p->vertex_count; i++)
+        memcpy(kept + i * width, *values + (size_t)p->sources[i] * width, width * sizeof *kept);
+    free(*values);
+    *values = kept;
+    return 1;
+}
+
 static int read_primitive(gltf *g, const scene *s, const cJSON *json, primitive *p)
 {
     const cJSON *attributes = gltf_get(json, "attributes");
@@ -221,7 +241,8 @@ static int read_primitive(gltf *g, const scene *s, const cJSON *json, primitive 
     if (!read_attribute(g, p, attributes, "COLOR_0", GLTF_WIDE(3) | GLTF_WIDE(4) | NORMALIZED, 1.0f, &p->colors,
                         &p->color_width))
         return 0;
-    return choose_vertices(g, p);
+    return choose_vertices(g, p) && compact(g, p, 3, &p->positions) && compact(g, p, 3, &p->normals) &&
+           compact(g, p, 2, &p->uvs) && compact(g, p, p->color_width, &p->colors);
 }
 
 /* Scales to length 1, and returns 0 for what has no direction. In double the square of no float overflows or vanishes,
@@ -281,14 +302,14 @@ static void gather(const gltf *g, scene_mesh *m, const primitive *p)
     uint32_t *indices = m->indices + 3 * (size_t)m->triangle_count;
     scene_range *range = &m->ranges[m->range_count++];
 
-    for (uint32_t i = 0; i < p->vertex_count; i++) {
-        const size_t from = p->sources[i], to = (size_t)first + i;
-        const double u = p->uvs ? p->uvs[2 * from] * uv->scale[0] : 0.0;
-        const double v = p->uvs ? p->uvs[2 * from + 1] * uv->scale[1] : 0.0;
+    for (size_t i = 0; i < p->vertex_count; i++) {
+        const size_t to = first + i;
+        const double u = p->uvs ? p->uvs[2 * i] * uv->scale[0] : 0.0;
+        const double v = p->uvs ? p->uvs[2 * i + 1] * uv->scale[1] : 0.0;
 
-        memcpy(m->positions + 3 * to, p->positions + 3 * from, 3 * sizeof(float));
+        memcpy(m->positions + 3 * to, p->positions + 3 * i, 3 * sizeof(float));
         if (p->normals) {
-            const double n[3] = {p->normals[3 * from], p->normals[3 * from + 1], p->normals[3 * from + 2]};
+            const double n[3] = {p->normals[3 * i], p->normals[3 * i + 1], p->normals[3 * i + 2]};
 
             normalize(n, m->normals + 3 * to);
         }
@@ -298,7 +319,7 @@ static void gather(const gltf *g, scene_mesh *m, const primitive *p)
             m->uvs[2 * to + 1] = finite_float(v * uv->cosine - u * uv->sine + uv->offset[1]);
         }
         for (unsigned c = 0; c < 4; c++)
-            m->colors[4 * to + c] = p->colors && c < p->color_width ? p->colors[p->color_width * from + c] : 1.0f;
+            m->colors[4 * to + c] = p->colors && c < p->color_width ? p->colors[p->color_width * i + c] : 1.0f;
     }
     for (size_t i = 0; i < 3 * (size_t)p->triangle_count; i++)
         indices[i] = first + p->indices[i];

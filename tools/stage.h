@@ -99,6 +99,10 @@ void stage_draw_plain(stage *s);
 void stage_show_volumes(stage *s);
 void stage_show_silhouettes(stage *s);
 
+/* How many fragments were rasterised at each pixel, up to 255: red of the plan's volumes, green of the scene's surfaces.
+ * Spoils the frame just drawn. */
+void stage_draw_layers(stage *s);
+
 /* Counts fragments of the plan's volumes in the frame that was just drawn, spoiling its colours: all that are rasterised, and
  * those in front of what is seen (they pass the depth test). 1, or 0 when memory or the GL failed. */
 int stage_count_fragments(stage *s, uint64_t *rasterised, uint64_t *passed);

@@ -88,16 +88,37 @@ void stage_show_silhouettes(stage *s)
     done(s);
 }
 
+static void add_fragments(stage *s, uint32_t first, uint32_t count)
+{
+    static const float one[4] = {1.0f / 255.0f, 0, 0, 0};
+
+    s->gl->glClearColor(0, 0, 0, 0);
+    s->gl->glClear(GL_COLOR_BUFFER_BIT);
+    gn_gles_draw_volumes(s->gles, s->plan, first, count, one);
+}
+
+void stage_draw_layers(stage *s)
+{
+    static const float one[4] = {0, 1.0f / 255.0f, 0, 0};
+    const stage_look look = {0, 0, 0, one, -1, -1};
+
+    over_the_frame(s, GL_ONE, GL_ONE);
+    s->gl->glDisable(GL_DEPTH_TEST);
+    s->gl->glDisable(GL_DITHER);
+    add_fragments(s, 0, s->plan->record_count);
+    stage_draw_objects(s, STAGE_PASS_SOLID, &look);
+    s->gl->glEnable(GL_DITHER);
+    done(s);
+}
+
 /* Adds up the red of records first .. first + count - 1; where some pixel is full, each half is counted by itself. */
 static uint64_t count_records(stage *s, uint32_t first, uint32_t count, uint8_t *pixels)
 {
-    static const float one[4] = {1.0f / 255.0f, 0, 0, 0};
     const size_t size = (size_t)s->target.width * s->target.height;
     uint64_t sum = 0;
     uint8_t most = 0;
 
-    s->gl->glClear(GL_COLOR_BUFFER_BIT);
-    gn_gles_draw_volumes(s->gles, s->plan, first, count, one);
+    add_fragments(s, first, count);
     s->gl->glReadPixels(0, 0, (GLsizei)s->target.width, (GLsizei)s->target.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     for (size_t i = 0; i < size; i++) {
         sum += pixels[4 * i];
@@ -114,7 +135,6 @@ int stage_count_fragments(stage *s, uint64_t *rasterised, uint64_t *passed)
 
     if (!pixels)
         return 0;
-    s->gl->glClearColor(0, 0, 0, 0);
     s->gl->glDisable(GL_DITHER);
     over_the_frame(s, GL_ONE, GL_ONE);
     *passed = count_records(s, 0, s->plan->record_count, pixels);

@@ -5,8 +5,9 @@
  *           points close beside it are lit.
  * SNAPPED   Rasterisers round vertices to 1/256 pixel. Is anything else seen, and is its state another, at eight points
  *           1/256 pixel from the centre? Snapping moves x and y but not depth, so a surface seen at a slope also comes
- *           nearer or recedes by what its depth changes in 1/256 pixel: does that flip it? Or is the surface so nearly
- *           edge-on to the light that a float cannot tell which of its sides is lit?
+ *           nearer or recedes by what its depth changes in 1/256 pixel: does that flip it? Does a silhouette edge of the
+ *           light, where attached shadow begins, come within 1/256 pixel of the centre in plain sight? Or is the surface so
+ *           nearly edge-on to the light that a float cannot tell which of its sides is lit?
  * DEPTH     Does it flip when the point is moved along the view ray by 1 or 2 steps of the depth buffer, or is there
  *           another surface of another state within 2 steps, or znear or zfar itself?
  *
@@ -14,7 +15,7 @@
  *
  * A point moved behind its own surface is in that surface's shadow, but that is no flip: a method draws the surface and
  * its cap at the very same depth. So the visible triangle never blocks, nor do triangles in whose planes the visible
- * point lies, nor, close by, those that continue the visible one around an edge (they share a vertex with it). */
+ * point lies, nor, when vertices are snapped, those that continue the visible one close by around an edge. */
 #include "truth_pass.h"
 
 #include <string.h>
@@ -155,14 +156,15 @@ static int edge_crosses(truth_pass *p, const truth_point *c, double x, double y,
 
 /* ------------------------------------------------------------------ classes */
 
-/* Whether a point that faces the light flips when it is moved to another depth on the view ray. */
-static int flips_when_moved(truth_pass *p, const truth_point *c, double depth, int lit)
+/* Whether a point that faces the light flips when it is moved to another depth on the view ray. around_edges: triangles
+ * beside the visible one are pardoned too. */
+static int flips_when_moved(truth_pass *p, const truth_point *c, double depth, int lit, int around_edges)
 {
     truth_pardon pardon = {{c->at[0], c->at[1], c->at[2]}, c->triangle, 0.0};
     double at[3], by[3], along[3];
 
     truth_along(at, c->from, depth, c->along);
-    if (lit) { /* behind an edge the way to the light leads through the edge's other triangle, farther off if grazing */
+    if (lit && around_edges) { /* behind an edge the way to the light leads through the edge's other triangle, farther off if grazing */
         truth_sub(by, at, c->at);
         truth_to_light(p, at, along);
         pardon.reach = 4.0 * truth_length(by) / (truth_length(along) * truth_facing(p, c));
@@ -187,11 +189,51 @@ static double depth_slope(const truth *t, const truth_point *c, double x, double
     return slope;
 }
 
+/* A silhouette edge that is not hidden: at most as deep as what is seen around it. */
+static int is_in_sight(void *user, const double a[3], const double b[3])
+{
+    const prober *is = user;
+    const double *forward = is->p->t->axes[2];
+
+    return fmin(truth_dot(a, forward), truth_dot(b, forward)) <= is->centre->depth * (1.0 + 1e-6);
+}
+
+/* Whether the light's silhouette passes within 1/256 pixel of the centre, in sight. Where a rasteriser's snapped triangle
+ * covers a centre that the true one misses, depths are those of the triangle's plane beyond its edge: cap and side then come
+ * in the wrong order. deepest: of what is seen within 1/256 pixel. */
+static int silhouette_near(truth_pass *p, const truth_point *c, double x, double y, double deepest)
+{
+    static const double corners[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
+    const truth *t = p->t;
+    truth_point reach = *c;
+    const prober is = {p, &reach, NULL};
+    truth_plane planes[5];
+
+    reach.depth = deepest;
+    for (int i = 0; i < 4; i++) {
+        double from[2][3], along[2][3], beside[3], to_centre[3];
+
+        for (int k = 0; k < 2; k++)
+            truth_view_ray(t, x + corners[i + k][0] * TRUTH_SNAP, y + corners[i + k][1] * TRUTH_SNAP, from[k], along[k]);
+        for (int k = 0; k < 3; k++)
+            beside[k] = from[1][k] + along[1][k] * c->depth - from[0][k] - along[0][k] * c->depth;
+        truth_cross(planes[i].normal, along[0], beside);
+        truth_sub(to_centre, c->at, from[0]);
+        if (truth_dot(planes[i].normal, to_centre) < 0.0)
+            for (int k = 0; k < 3; k++)
+                planes[i].normal[k] = -planes[i].normal[k];
+        planes[i].least = truth_dot(planes[i].normal, from[0]);
+    }
+    memcpy(planes[4].normal, t->axes[2], sizeof planes[4].normal);
+    planes[4].least = t->nearest;
+    return truth_silhouette_within(&p->silhouette, planes, is_in_sight, (void *)&is);
+}
+
 static int is_snapped(truth_pass *p, const truth_point *c, double x, double y, int lit, uint8_t remarks)
 {
     const truth *t = p->t;
     const double cosine = truth_facing(p, c);
-    double change;
+    double change, deepest = c->depth;
 
     if ((remarks & TRUTH_SNAP_VISIBLE) || fabs(cosine) < FLOAT_EDGE_ON)
         return 1;
@@ -207,11 +249,14 @@ static int is_snapped(truth_pass *p, const truth_point *c, double x, double y, i
         truth_point_set(&beside, t, sx, sy, seen, depth);
         if (truth_is_lit(p, &beside) != lit)
             return 1;
+        deepest = fmax(deepest, depth);
     }
+    if ((remarks & TRUTH_SNAP_TRIANGLE) && lit && silhouette_near(p, c, x, y, deepest))
+        return 1;
     if (cosine < 0.0 || !(t->rays.triangles[c->triangle].flags & TRUTH_RECEIVES))
         return 0;
     change = fmin(TRUTH_SNAP * depth_slope(t, c, x, y), 0.5 * c->depth);
-    return flips_when_moved(p, c, c->depth - change, lit) || flips_when_moved(p, c, c->depth + change, lit);
+    return flips_when_moved(p, c, c->depth - change, lit, 1) || flips_when_moved(p, c, c->depth + change, lit, 1);
 }
 
 /* Whether the eye meets another surface, of another state, within two steps behind the visible one. */
@@ -249,7 +294,7 @@ static int is_depth_limited(truth_pass *p, const truth_point *c, int lit, uint8_
     if (!(truth_facing(p, c) > 0.0) || !(t->rays.triangles[c->triangle].flags & TRUTH_RECEIVES))
         return 0;
     for (int step = -2; step <= 2; step++)
-        if (step != 0 && flips_when_moved(p, c, truth_stepped(t, c->depth, step), lit))
+        if (step != 0 && flips_when_moved(p, c, truth_stepped(t, c->depth, step), lit, 0))
             return 1;
     return 0;
 }

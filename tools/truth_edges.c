@@ -13,11 +13,6 @@
 
 #include "truth_vec.h"
 
-/* A box or a segment lies inside a plane where normal . x >= least. */
-typedef struct plane {
-    double normal[3], least;
-} plane;
-
 /* Open addressing over a power of two that leaves half the slots empty; 0 is an empty slot, n + 1 is item n. */
 typedef struct table {
     uint32_t *slots;
@@ -212,7 +207,7 @@ void truth_project(double out[3], const truth_lamp *lamp, const truth_footprint 
 }
 
 /* Four sides through the light, and the receiver's plane, raised. */
-static void pyramid(plane out[5], const truth_lamp *lamp, const truth_footprint *f)
+static void pyramid(truth_plane out[5], const truth_lamp *lamp, const truth_footprint *f)
 {
     double up[3];
 
@@ -233,7 +228,7 @@ static void pyramid(plane out[5], const truth_lamp *lamp, const truth_footprint 
     out[4].least = truth_dot(f->normal, f->centre) + 1e-3 * f->size * truth_dot(f->normal, up) / truth_length(up);
 }
 
-static int box_outside(const truth_bvh_node *n, const plane planes[5])
+static int box_outside(const truth_bvh_node *n, const truth_plane planes[5])
 {
     for (int i = 0; i < 5; i++) {
         double most = 0.0;
@@ -247,7 +242,7 @@ static int box_outside(const truth_bvh_node *n, const plane planes[5])
 }
 
 /* Cuts the segment down to what lies inside all planes; returns 0 if nothing does. */
-static int clip(double out[2][3], const double segment[2][3], const plane planes[5])
+static int clip(double out[2][3], const double segment[2][3], const truth_plane planes[5])
 {
     double from = 0.0, to = 1.0, along[3];
 
@@ -270,16 +265,13 @@ static int clip(double out[2][3], const double segment[2][3], const plane planes
     return 1;
 }
 
-int truth_silhouette_cross(const truth_silhouette *s, const truth_footprint *f,
-                           int (*each)(void *user, const double a[3], const double b[3]), void *user)
+int truth_silhouette_within(const truth_silhouette *s, const truth_plane planes[5], truth_part_visitor each, void *user)
 {
     uint32_t stack[TRUTH_BVH_STACK];
-    plane planes[5];
     int top = 0;
 
     if (s->count == 0)
         return 0;
-    pyramid(planes, &s->lamp, f);
     stack[top++] = 0;
     while (top > 0) {
         const truth_bvh_node *n = &s->bvh.nodes[stack[--top]];
@@ -303,4 +295,12 @@ int truth_silhouette_cross(const truth_silhouette *s, const truth_footprint *f,
         }
     }
     return 0;
+}
+
+int truth_silhouette_cross(const truth_silhouette *s, const truth_footprint *f, truth_part_visitor each, void *user)
+{
+    truth_plane planes[5];
+
+    pyramid(planes, &s->lamp, f);
+    return truth_silhouette_within(s, planes, each, user);
 }

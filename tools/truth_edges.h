@@ -38,6 +38,14 @@ typedef struct truth_footprint {
     double size;                     /* greatest distance of a corner from the centre */
 } truth_footprint;
 
+/* The half space where normal . p >= least. */
+typedef struct truth_plane {
+    double normal[3], least;
+} truth_plane;
+
+/* A part of a silhouette edge; other than 0 ends the search. */
+typedef int (*truth_part_visitor)(void *user, const double a[3], const double b[3]);
+
 /* Both return 1, or 0 when memory ran out. */
 int truth_edges_build(truth_edges *out, const truth_rays *r);
 int truth_silhouette_build(truth_silhouette *out, const truth_edges *e, const truth_lamp *lamp);
@@ -50,8 +58,10 @@ void truth_silhouette_free(truth_silhouette *s); /* a zeroed one does nothing */
  *
  * A part whose shadow lies within a thousandth of the footprint's size from itself is left out: it lies in the surface
  * (the border of a sheet, the seam of a floor, the foot of a box), where what is seen changes with it. */
-int truth_silhouette_cross(const truth_silhouette *s, const truth_footprint *f,
-                           int (*each)(void *user, const double a[3], const double b[3]), void *user);
+int truth_silhouette_cross(const truth_silhouette *s, const truth_footprint *f, truth_part_visitor each, void *user);
+
+/* The same for the parts within any five planes. */
+int truth_silhouette_within(const truth_silhouette *s, const truth_plane planes[5], truth_part_visitor each, void *user);
 
 /* Where the light puts the shadow of p on the footprint's plane; p must lie between them. */
 void truth_project(double out[3], const truth_lamp *lamp, const truth_footprint *f, const double p[3]);

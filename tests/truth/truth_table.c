@@ -1,0 +1,257 @@
+/* truth_table.c - masks of scenes against the ray-traced truth: a row for each scene, driver, method and light.
+ *
+ *     truth_table [--size WxH] [--drivers LIST] [--pixels] SCENES_DIR [SCENE...]
+ *
+ * SCENES_DIR holds the .gltf files and scenes.txt, which says of each scene whether z-pass is right there (zpass, nozpass) and
+ * whether a slow rasteriser draws it (small, large). Drivers: llvmpipe and softpipe through EGL, osmesa; softpipe takes small scenes.
+ *
+ * A rasteriser that draws a shared edge twice, or not at all, at some pixel cannot count volumes there (Everitt 2002, section
+ * 3.1, asks for watertight rasterisation). softpipe is such: where its number of fragments at a wrong pixel is not llvmpipe's,
+ * the pixel stands under "cracks" and not under "wrong".
+ *
+ * The truth of a light is traced once; then each driver draws in a process of its own, since Mesa picks its rasteriser once a
+ * process, into memory that all share. Fails when a certain pixel is wrong where the method must be right, when fewer than 80 %
+ * of the pixels are certain, or when the masks of llvmpipe and osmesa differ in a single byte. */
+#define _DEFAULT_SOURCE
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "stage.h"
+#include "truth.h"
+
+#define MOST_LIGHTS 16
+
+typedef struct driver {
+    const char *name, *platform, *gallium;
+    int slow, cracks;
+} driver;
+
+static const driver drivers[] = {
+    {"llvmpipe", "egl", "llvmpipe", 0, 0},
+    {"osmesa", "osmesa", "llvmpipe", 0, 0},
+    {"softpipe", "egl", "softpipe", 1, 1},
+};
+enum { DRIVERS = sizeof drivers / sizeof drivers[0], METHODS = 2 };
+
+static const gn_method methods[METHODS] = {GN_METHOD_ZFAIL, GN_METHOD_ZPASS};
+
+typedef struct job {
+    char name[64];
+    int zpass_is_right, is_large;
+    int list_pixels; /* print each wrong one */
+    uint32_t width, height;
+    size_t lights;
+    uint8_t *lit, *visible, *classes; /* [lights][pixels] of the truth */
+    uint8_t *drawn;  /* shared: [DRIVERS][METHODS][MOST_LIGHTS][pixels]: lit 1, visible 2 */
+    uint8_t *layers; /* shared, the same: fragments of volumes and surfaces, as one number */
+} job;
+
+static size_t pixels_of(const job *j)
+{
+    return (size_t)j->width * j->height;
+}
+
+/* Where the pixels of one drawing start, in masks and in layers. */
+static size_t place_of(const job *j, int d, int m, size_t light)
+{
+    return (((size_t)d * METHODS + (size_t)m) * MOST_LIGHTS + light) * pixels_of(j);
+}
+
+/* In a process of its own. */
+static int draw_masks(const job *j, scene *loaded, int d)
+{
+    const stage_options options = {drivers[d].platform, j->width, j->height, 0.0, 24, 8};
+    char message[SCENE_MESSAGE] = "";
+    uint8_t *rgba = malloc(4 * pixels_of(j));
+    stage *s;
+    int failed;
+
+    setenv("GALLIUM_DRIVER", drivers[d].gallium, 1);
+    failed = !rgba || stage_open(&s, loaded, &options, message) != 0;
+    if (!failed)
+        stage_pose(s, 0.0, 0.0);
+    for (uint32_t light = 0; !failed && light < j->lights; light++)
+        for (int m = 0; !failed && m < METHODS; m++) {
+            const size_t at = place_of(j, d, m, light);
+
+            failed = stage_plan(s, methods[m], light, 1, 1, message) != 0 || !stage_draw_mask(s, light, message) ||
+                     !platform_read_back(s->platform, rgba);
+            for (size_t i = 0; !failed && i < pixels_of(j); i++)
+                j->drawn[at + i] = (uint8_t)((rgba[4 * i] > 127) | (rgba[4 * i + 1] > 127) << 1);
+            if (!failed) {
+                stage_draw_layers(s);
+                failed = !platform_read_back(s->platform, rgba);
+            }
+            for (size_t i = 0; !failed && i < pixels_of(j); i++)
+                j->layers[at + i] = (uint8_t)(rgba[4 * i] + 37 * rgba[4 * i + 1]);
+        }
+    if (failed)
+        printf("%-18s %-9s cannot be drawn: %s\n", j->name, drivers[d].name, message);
+    fflush(stdout);
+    _exit(failed);
+}
+
+static int trace(job *j, const scene *loaded)
+{
+    const truth_options options = {j->width, j->height, 24, {0, 0}};
+    const size_t size = (j->lights ? j->lights : 1) * pixels_of(j);
+    char message[SCENE_MESSAGE] = "";
+    truth *t = truth_create(loaded, &options, message);
+
+    j->lit = malloc(size);
+    j->visible = malloc(size);
+    j->classes = malloc(size);
+    for (size_t light = 0; light < j->lights && t; light++) {
+        const size_t at = light * pixels_of(j);
+
+        if (!truth_light(t, light, j->lit + at, j->visible + at, j->classes + at, message)) {
+            truth_free(t);
+            t = NULL;
+        }
+    }
+    if (!t)
+        printf("%-18s has no truth: %s\n", j->name, message);
+    truth_free(t);
+    return t != NULL;
+}
+
+/* Prints a row; returns 1 when it is a failure. */
+static int compare(const job *j, int d, int m, size_t light)
+{
+    const size_t n = pixels_of(j), at = light * n;
+    const uint8_t *mask = j->drawn + place_of(j, d, m, light), *layers = j->layers + place_of(j, d, m, light);
+    const uint8_t *sound = j->layers + place_of(j, 0, m, light);
+    const int must_be_right = methods[m] == GN_METHOD_ZFAIL || j->zpass_is_right;
+    size_t certain = 0, depth_limited = 0, wrong = 0, cracks = 0;
+    int few;
+
+    for (size_t i = 0; i < n; i++) {
+        const uint8_t right = (uint8_t)((j->lit[at + i] != 0) | (j->visible[at + i] != 0) << 1);
+
+        depth_limited += j->classes[at + i] == TRUTH_DEPTH_LIMITED;
+        if (j->classes[at + i] != TRUTH_CERTAIN)
+            continue;
+        certain++;
+        if (mask[i] == right)
+            continue;
+        if (drivers[d].cracks && layers[i] != sound[i])
+            cracks++;
+        else
+            wrong++;
+        if (j->list_pixels && must_be_right)
+            printf("  pixel %lu, %lu: %s%s drawn\n", (unsigned long)(i % j->width), (unsigned long)(i / j->width),
+                   mask[i] & 1 ? "lit" : "shadowed", mask[i] & 2 ? "" : ", nothing");
+    }
+    few = certain * 10 < n * 8;
+    printf("%-18s %-9s %-6s %5lu %8.2f%% %7lu %7lu %7lu%s%s\n", j->name, drivers[d].name, gn_method_describe(methods[m])->name,
+           (unsigned long)light, 100.0 * (double)certain / (double)n, (unsigned long)depth_limited, (unsigned long)wrong,
+           (unsigned long)cracks, must_be_right ? (wrong ? "  WRONG" : "") : "  (not for this view)",
+           few ? "  TOO FEW CERTAIN" : "");
+    return few || (must_be_right && wrong);
+}
+
+static int run(job *j, const char *dir, const char *wanted_drivers)
+{
+    char path[1024], message[SCENE_MESSAGE] = "";
+    const size_t shared = (size_t)DRIVERS * METHODS * MOST_LIGHTS * pixels_of(j);
+    int failures = 0, drawn[DRIVERS] = {0};
+    scene loaded;
+
+    snprintf(path, sizeof path, "%s/%s.gltf", dir, j->name);
+    if (!scene_load(&loaded, path, NULL, message) ||
+        !scene_ensure_view(&loaded, (double)j->width / (double)j->height, NULL) || loaded.light_count > MOST_LIGHTS) {
+        printf("%-18s cannot be loaded: %s\n", j->name, message);
+        return 1;
+    }
+    j->lights = loaded.light_count;
+    j->drawn = mmap(NULL, 2 * shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    j->layers = j->drawn + shared;
+    if (j->drawn == MAP_FAILED || !trace(j, &loaded))
+        return 1;
+    for (int d = 0; d < DRIVERS; d++) {
+        int status = 1;
+        pid_t child;
+
+        if (!strstr(wanted_drivers, drivers[d].name) || (drivers[d].slow && j->is_large))
+            continue;
+        child = fork();
+        if (child == 0)
+            draw_masks(j, &loaded, d);
+        if (child < 0 || waitpid(child, &status, 0) != child || status != 0) {
+            failures++;
+            continue;
+        }
+        drawn[d] = 1;
+        for (int m = 0; m < METHODS; m++)
+            for (size_t light = 0; light < j->lights; light++)
+                failures += compare(j, d, m, light);
+    }
+    if (drawn[0] && drawn[1] && memcmp(j->drawn, j->drawn + shared / DRIVERS, shared / DRIVERS) != 0) {
+        printf("%-18s llvmpipe and osmesa: the masks differ\n", j->name);
+        failures++;
+    }
+    fflush(stdout);
+    munmap(j->drawn, 2 * shared);
+    free(j->lit);
+    free(j->visible);
+    free(j->classes);
+    scene_free(&loaded);
+    return failures;
+}
+
+static int is_named(const char *name, int count, char **names)
+{
+    for (int i = 0; i < count; i++)
+        if (strcmp(name, names[i]) == 0)
+            return 1;
+    return count == 0;
+}
+
+int main(int count, char **arguments)
+{
+    const char *wanted_drivers = "llvmpipe,osmesa,softpipe";
+    unsigned width = 640, height = 480;
+    int list_pixels = 0, failures = 0, scenes = 0, at = 1;
+    char path[1024], line[512];
+    FILE *list;
+
+    setvbuf(stdout, NULL, _IOLBF, 0);
+    for (; at + 1 < count && strncmp(arguments[at], "--", 2) == 0; at++)
+        if (strcmp(arguments[at], "--pixels") == 0)
+            list_pixels = 1;
+        else if (strcmp(arguments[at], "--drivers") == 0)
+            wanted_drivers = arguments[++at];
+        else if (strcmp(arguments[at], "--size") != 0 || sscanf(arguments[++at], "%ux%u", &width, &height) != 2)
+            return fprintf(stderr, "truth_table: what is %s?\n", arguments[at]), 2;
+    if (at >= count)
+        return fprintf(stderr, "usage: truth_table [--size WxH] [--drivers LIST] SCENES_DIR [SCENE...]\n"), 2;
+    snprintf(path, sizeof path, "%s/scenes.txt", arguments[at]);
+    list = fopen(path, "r");
+    if (!list)
+        return fprintf(stderr, "truth_table: %s: cannot be read\n", path), 1;
+    printf("%-18s %-9s %-6s %5s %9s %7s %7s %7s   (%ux%u)\n", "scene", "driver", "method", "light", "certain", "depth", "wrong", "cracks",
+           width, height);
+    while (fgets(line, sizeof line, list)) {
+        char zpass[16], size[16];
+        job j;
+
+        memset(&j, 0, sizeof j);
+        if (sscanf(line, "%63s %15s %15s", j.name, zpass, size) != 3 ||
+            !is_named(j.name, count - at - 1, arguments + at + 1))
+            continue;
+        j.zpass_is_right = strcmp(zpass, "zpass") == 0;
+        j.is_large = strcmp(size, "large") == 0;
+        j.list_pixels = list_pixels;
+        j.width = width;
+        j.height = height;
+        scenes++;
+        failures += run(&j, arguments[at], wanted_drivers);
+    }
+    fclose(list);
+    printf("%d scenes, %d failures\n", scenes, failures);
+    return scenes == 0 || failures != 0;
+}
