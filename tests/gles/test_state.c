@@ -1,0 +1,240 @@
+/* test_state.c - the GL state that gnomon_gles.h promises, on a real driver: all of it is read before, at each step, and
+ * after, from a context whose every state was turned away from its default first. */
+#include "frame.h"
+#include "platform.h"
+
+#include <string.h>
+
+#define SIZE 32
+
+static platform *p;
+static gn_context *context;
+static gn_gles *gles;
+static const gn_gl *gl;
+
+/* State that has one or several numbers, all of it: of OpenGL ES 2.0, tables 6.2 to 6.20, less strings and constants. */
+static const struct {
+    GLenum name;
+    int count;
+    int touched; /* the header says what it is on exit */
+} states[] = {
+    {GL_ARRAY_BUFFER_BINDING, 1, 1}, {GL_ELEMENT_ARRAY_BUFFER_BINDING, 1, 1}, {GL_VIEWPORT, 4, 1}, {GL_DEPTH_RANGE, 2, 0},
+    {GL_LINE_WIDTH, 1, 0}, {GL_CULL_FACE, 1, 1}, {GL_CULL_FACE_MODE, 1, 0}, {GL_FRONT_FACE, 1, 1},
+    {GL_POLYGON_OFFSET_FACTOR, 1, 1}, {GL_POLYGON_OFFSET_UNITS, 1, 1}, {GL_POLYGON_OFFSET_FILL, 1, 1},
+    {GL_SAMPLE_ALPHA_TO_COVERAGE, 1, 0}, {GL_SAMPLE_COVERAGE, 1, 0}, {GL_SAMPLE_COVERAGE_VALUE, 1, 0},
+    {GL_SAMPLE_COVERAGE_INVERT, 1, 0}, {GL_ACTIVE_TEXTURE, 1, 0}, {GL_TEXTURE_BINDING_2D, 1, 0},
+    {GL_TEXTURE_BINDING_CUBE_MAP, 1, 0}, {GL_SCISSOR_TEST, 1, 1}, {GL_SCISSOR_BOX, 4, 0}, {GL_STENCIL_TEST, 1, 1},
+    {GL_STENCIL_FUNC, 1, 1}, {GL_STENCIL_VALUE_MASK, 1, 1}, {GL_STENCIL_REF, 1, 1}, {GL_STENCIL_FAIL, 1, 1},
+    {GL_STENCIL_PASS_DEPTH_FAIL, 1, 1}, {GL_STENCIL_PASS_DEPTH_PASS, 1, 1}, {GL_STENCIL_BACK_FUNC, 1, 1},
+    {GL_STENCIL_BACK_VALUE_MASK, 1, 1}, {GL_STENCIL_BACK_REF, 1, 1}, {GL_STENCIL_BACK_FAIL, 1, 1},
+    {GL_STENCIL_BACK_PASS_DEPTH_FAIL, 1, 1}, {GL_STENCIL_BACK_PASS_DEPTH_PASS, 1, 1}, {GL_DEPTH_TEST, 1, 1},
+    {GL_DEPTH_FUNC, 1, 1}, {GL_BLEND, 1, 1}, {GL_BLEND_SRC_RGB, 1, 1}, {GL_BLEND_SRC_ALPHA, 1, 1}, {GL_BLEND_DST_RGB, 1, 1},
+    {GL_BLEND_DST_ALPHA, 1, 1}, {GL_BLEND_EQUATION_RGB, 1, 1}, {GL_BLEND_EQUATION_ALPHA, 1, 1}, {GL_BLEND_COLOR, 4, 0},
+    {GL_DITHER, 1, 0}, {GL_COLOR_WRITEMASK, 4, 1}, {GL_DEPTH_WRITEMASK, 1, 1}, {GL_STENCIL_WRITEMASK, 1, 1},
+    {GL_STENCIL_BACK_WRITEMASK, 1, 1}, {GL_COLOR_CLEAR_VALUE, 4, 0}, {GL_DEPTH_CLEAR_VALUE, 1, 1},
+    {GL_STENCIL_CLEAR_VALUE, 1, 1}, {GL_FRAMEBUFFER_BINDING, 1, 0}, {GL_RENDERBUFFER_BINDING, 1, 0},
+    {GL_UNPACK_ALIGNMENT, 1, 0}, {GL_PACK_ALIGNMENT, 1, 0}, {GL_CURRENT_PROGRAM, 1, 1}, {GL_GENERATE_MIPMAP_HINT, 1, 0},
+};
+enum { STATES = sizeof states / sizeof states[0] };
+
+typedef struct snapshot {
+    GLfloat values[STATES][4];
+    GLint arrays[16];
+} snapshot;
+
+static void take(snapshot *s)
+{
+    GLint arrays = 0;
+
+    memset(s, 0, sizeof *s);
+    for (int i = 0; i < STATES; i++)
+        gl->glGetFloatv(states[i].name, s->values[i]);
+    gl->glGetIntegerv(GL_MAX_VERTEX_ATTRIBS, &arrays);
+    for (GLint i = 0; i < arrays && i < 16; i++)
+        gl->glGetVertexAttribiv((GLuint)i, GL_VERTEX_ATTRIB_ARRAY_ENABLED, &s->arrays[i]);
+    assert_int_equal(gl->glGetError(), GL_NO_ERROR);
+}
+
+static GLfloat value_of(const snapshot *s, GLenum name)
+{
+    for (int i = 0; i < STATES; i++)
+        if (states[i].name == name)
+            return s->values[i][0];
+    fail_msg("state 0x%04x is not in the table", name);
+    return 0;
+}
+
+/* Everything away from its default, so that nothing is right by chance. */
+static void disturb(void)
+{
+    static const GLenum capabilities[] = {GL_CULL_FACE, GL_POLYGON_OFFSET_FILL, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST,
+                                          GL_BLEND};
+
+    for (size_t i = 0; i < sizeof capabilities / sizeof capabilities[0]; i++)
+        gl->glEnable(capabilities[i]);
+    gl->glDisable(GL_DITHER);
+    gl->glCullFace(GL_FRONT);
+    gl->glFrontFace(GL_CW);
+    gl->glPolygonOffset(3, 4);
+    gl->glScissor(1, 2, 3, 4);
+    gl->glStencilFuncSeparate(GL_FRONT, GL_NEVER, 3, 5);
+    gl->glStencilFuncSeparate(GL_BACK, GL_LESS, 4, 6);
+    gl->glStencilOpSeparate(GL_FRONT_AND_BACK, GL_INVERT, GL_INVERT, GL_REPLACE);
+    gl->glStencilMask(0x55);
+    gl->glDepthFunc(GL_GREATER);
+    gl->glDepthMask(GL_FALSE);
+    gl->glColorMask(GL_FALSE, GL_TRUE, GL_FALSE, GL_TRUE);
+    gl->glBlendFunc(GL_DST_COLOR, GL_ONE_MINUS_DST_ALPHA);
+    gl->glBlendEquation(GL_FUNC_SUBTRACT);
+    gl->glClearColor(0.25f, 0.5f, 0.75f, 0.5f);
+    gl->glClearDepthf(0.5f);
+    gl->glClearStencil(77);
+    gl->glViewport(5, 6, 7, 8);
+    gl->glPixelStorei(GL_PACK_ALIGNMENT, 2);
+    gl->glActiveTexture(GL_TEXTURE3);
+    for (GLuint i = 0; i < 8; i++)
+        gl->glEnableVertexAttribArray(i);
+}
+
+static void expect(const snapshot *s, GLenum name, GLfloat wanted, const char *where)
+{
+    if (value_of(s, name) != wanted)
+        fail_msg("%s: state 0x%04x is %g, not %g", where, name, (double)value_of(s, name), (double)wanted);
+}
+
+static void check_step(const gn_step *step)
+{
+    static const char *const names[] = {"nothing", "ambient", "light", "final"};
+    const char *const where = names[step->draw];
+    snapshot s;
+
+    take(&s);
+    expect(&s, GL_DEPTH_TEST, 1, where);
+    expect(&s, GL_DEPTH_FUNC, step->draw == GN_DRAW_LIGHT ? GL_EQUAL : GL_LESS, where);
+    expect(&s, GL_DEPTH_WRITEMASK, step->draw == GN_DRAW_AMBIENT, where);
+    expect(&s, GL_BLEND, step->draw != GN_DRAW_AMBIENT, where);
+    expect(&s, GL_STENCIL_TEST, step->draw == GN_DRAW_LIGHT && step->receivers, where);
+    if (step->draw == GN_DRAW_LIGHT) {
+        expect(&s, GL_BLEND_SRC_RGB, GL_ONE, where);
+        expect(&s, GL_BLEND_DST_RGB, GL_ONE, where);
+    }
+    if (step->draw == GN_DRAW_LIGHT && step->receivers) {
+        expect(&s, GL_STENCIL_FUNC, GL_EQUAL, where);
+        expect(&s, GL_STENCIL_REF, 0, where);
+        expect(&s, GL_STENCIL_WRITEMASK, 0, where);
+    }
+    if (step->draw == GN_DRAW_FINAL) {
+        expect(&s, GL_BLEND_SRC_RGB, GL_SRC_ALPHA, where);
+        expect(&s, GL_BLEND_DST_RGB, GL_ONE_MINUS_SRC_ALPHA, where);
+    }
+    expect(&s, GL_COLOR_WRITEMASK, 1, where);
+    expect(&s, GL_CULL_FACE, 0, where);
+    expect(&s, GL_SCISSOR_TEST, 0, where);
+    expect(&s, GL_POLYGON_OFFSET_FILL, 0, where);
+    expect(&s, GL_FRONT_FACE, GL_CCW, where);
+    expect(&s, GL_BLEND_EQUATION_RGB, GL_FUNC_ADD, where);
+    expect(&s, GL_CURRENT_PROGRAM, 0, where);
+    expect(&s, GL_ARRAY_BUFFER_BINDING, 0, where);
+    expect(&s, GL_ELEMENT_ARRAY_BUFFER_BINDING, 0, where);
+    for (int i = 0; i < 16; i++)
+        assert_int_equal(s.arrays[i], 0);
+}
+
+static void the_promised_state_holds(void **state)
+{
+    snapshot fresh, before, after;
+    test_frame f;
+    gn_step step;
+    int steps = 0;
+
+    (void)state;
+    take(&fresh); /* gn_gles_create left it as in a new context */
+    assert_int_equal(test_frame_make(&f, context, gles, gn_gles_describe_target(gles, SIZE, SIZE)), GN_OK);
+    f.objects[1].flags &= ~(unsigned)GN_RECEIVES;
+    assert_int_equal(gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan), GN_OK);
+    disturb();
+    take(&before);
+    for (int i = 0; i < STATES; i++) /* a state that disturb() forgot would prove nothing */
+        if (states[i].touched && states[i].name != GL_ARRAY_BUFFER_BINDING &&
+            states[i].name != GL_ELEMENT_ARRAY_BUFFER_BINDING && states[i].name != GL_CURRENT_PROGRAM)
+            assert_memory_not_equal(before.values[i], fresh.values[i], sizeof fresh.values[i]);
+    assert_int_equal(gn_gles_begin(gles, f.plan), GN_OK);
+    while (gn_gles_next(gles, &step)) {
+        check_step(&step);
+        disturb();
+        steps++;
+    }
+    assert_int_equal(steps, 6);
+    take(&after);
+    for (int i = 0; i < STATES; i++) {
+        const GLfloat *wanted = states[i].touched ? fresh.values[i] : before.values[i];
+
+        if (states[i].name == GL_VIEWPORT) {
+            const GLfloat whole[4] = {0, 0, SIZE, SIZE};
+
+            assert_memory_equal(after.values[i], whole, sizeof whole);
+        } else if (memcmp(after.values[i], wanted, sizeof after.values[i]) != 0) {
+            fail_msg("on exit state 0x%04x is %g, not %g", states[i].name, (double)after.values[i][0], (double)wanted[0]);
+        }
+    }
+    for (int i = 0; i < 16; i++)
+        assert_int_equal(after.arrays[i], 0);
+    test_frame_drop(&f, gles);
+}
+
+/* The target's bits are those that the platform says it gave. */
+static void the_target_is_described(void **state)
+{
+    const gn_target t = gn_gles_describe_target(gles, SIZE, SIZE);
+
+    (void)state;
+    assert_int_equal(t.stencil_bits, p->actual.stencil_bits);
+    assert_int_equal(t.depth_bits, p->actual.depth_bits);
+    assert_int_equal(t.alpha_bits, p->actual.alpha_bits);
+    assert_int_equal(t.red_bits, 8);
+    assert_int_equal(t.samples, 0);
+}
+
+static int open_on(const char *name)
+{
+    const platform_desc wanted = {SIZE, SIZE, 8, 8, 8, 8, 24, 8};
+    char message[PLATFORM_MESSAGE];
+
+    p = platform_open(name, &wanted, message);
+    if (!p || gn_context_create(NULL, &context) != GN_OK ||
+        gn_gles_create(context, platform_get_proc, p, &gles) != GN_OK) {
+        print_error("%s\n", message);
+        return 1;
+    }
+    gl = gn_gles_functions(gles);
+    return 0;
+}
+
+static int open_egl(void **state)
+{
+    (void)state;
+    return open_on("egl");
+}
+
+static int open_osmesa(void **state)
+{
+    (void)state;
+    return open_on("osmesa");
+}
+
+static int close_it(void **state)
+{
+    (void)state;
+    gn_gles_destroy(gles);
+    gn_context_destroy(context);
+    platform_close(p);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_promised_state_holds), cmocka_unit_test(the_target_is_described)};
+
+    return cmocka_run_group_tests_name("state, egl", tests, open_egl, close_it) +
+           cmocka_run_group_tests_name("state, osmesa", tests, open_osmesa, close_it);
+}

@@ -1,0 +1,103 @@
+#!/bin/sh
+# command.sh BUILD - the command's contract, as a user meets it: exit statuses, messages, files whole or not at all. One line a
+# test: "ok ..." or "not ok ...".
+build=$1
+gnomon=$build/gnomon
+scenes=build/scenes
+tmp=$build/command
+failed=0
+rm -rf "$tmp"
+mkdir -p "$tmp"
+
+ok() { # what, then a command that must succeed
+    what=$1
+    shift
+    if "$@" > "$tmp/out" 2>&1; then echo "ok $what"; else echo "not ok $what"; sed 's/^/    /' "$tmp/out" | head -n 5; failed=1; fi
+}
+# status, words of the message, arguments
+refuses() {
+    status=$1 words=$2
+    shift 2
+    "$gnomon" "$@" > "$tmp/out" 2> "$tmp/err"
+    got=$?
+    if [ $got = "$status" ] && [ "$(wc -l < "$tmp/err")" = 1 ] && grep -q "^gnomon: .*$words" "$tmp/err" && [ ! -s "$tmp/out" ]; then
+        echo "ok refuses: $*"
+    else
+        echo "not ok refuses: $* (status $got, wanted $status with '$words')"
+        sed 's/^/    /' "$tmp/err"
+        failed=1
+    fi
+}
+has() { grep -q "$2" "$1"; }
+is_png() { [ "$(head -c 4 "$1" | od -An -tx1 | tr -d ' ')" = 89504e47 ]; }
+numbers() { sed -n 's/.*"\('"$2"'\)":[^0-9]*\([0-9.]*\).*/\2/p' "$1" | head -n 1; }
+
+ok "--version" sh -c "$gnomon --version | grep -qE '^gnomon [0-9]+\.[0-9]+\.[0-9]+$'"
+for command in render probe methods; do
+    ok "help $command" sh -c "$gnomon help $command | grep -q 'usage: gnomon $command'"
+    ok "$command --help" sh -c "[ \"\$($gnomon $command --help)\" = \"\$($gnomon help $command)\" ]"
+done
+ok "help lists the commands" sh -c "$gnomon help | grep -q '  probe'"
+ok "methods lists zfail and zpass" sh -c "$gnomon methods | grep -q '^zfail  *exact' && $gnomon methods | grep -q '^zpass  *inexact'"
+ok "probe names driver and methods" sh -c "$gnomon probe --platform egl | grep -q 'zfail  *possible'"
+ok "probe --json is JSON" sh -c "$gnomon probe --json | python3 -c 'import json, sys; assert len(json.load(sys.stdin)) == 2'"
+
+refuses 2 "a command is missing"
+refuses 2 "(draw)" draw
+refuses 2 "takes one scene (0 given)" render
+refuses 2 "nothing to write" render $scenes/cube_point.gltf
+refuses 2 "(--colour)" render $scenes/cube_point.gltf -o "$tmp/x.png" --colour
+refuses 2 "(640)" render $scenes/cube_point.gltf -o "$tmp/x.png" --size 640
+refuses 2 "(0x480)" render $scenes/cube_point.gltf -o "$tmp/x.png" --size 0x480
+refuses 2 "(0)" render $scenes/cube_point.gltf -o "$tmp/x.png" --frames 0
+refuses 2 "(many)" render $scenes/cube_point.gltf -o "$tmp/x.png" --frames many
+refuses 2 "(magic)" render $scenes/cube_point.gltf -o "$tmp/x.png" --method magic
+refuses 2 "(x11)" render $scenes/cube_point.gltf -o "$tmp/x.png" --platform x11
+refuses 2 "(dreams)" render $scenes/cube_point.gltf -o "$tmp/x.png" --show dreams
+refuses 2 "a value is missing" render $scenes/cube_point.gltf -o
+refuses 1 "none.gltf" render "$tmp/none.gltf" -o "$tmp/x.png"
+refuses 1 "cannot be written" render $scenes/cube_point.gltf --size 16x16 -o "$tmp/no/such/x.png"
+export __EGL_VENDOR_LIBRARY_FILENAMES="$tmp/none.json" # an EGL without any driver
+refuses 3 "no context of 800x600: egl: surfaceless display: " render $scenes/cube_point.gltf -o "$tmp/x.png" --platform egl
+unset __EGL_VENDOR_LIBRARY_FILENAMES
+printf '{"asset": {"version": "2.0"}, "extensionsRequired": ["EXT_nonsense"]}' > "$tmp/required.gltf"
+refuses 1 "EXT_nonsense" render "$tmp/required.gltf" -o "$tmp/x.png"
+head -c 700 $scenes/cube_point.gltf > "$tmp/cut.gltf"
+refuses 1 "cut.gltf" render "$tmp/cut.gltf" -o "$tmp/x.png"
+ok "a refused run leaves nothing behind" sh -c "! ls $tmp | grep -E 'x\.png|part'"
+
+ok "a frame" "$gnomon" render $scenes/cube_point.gltf -o "$tmp/a.png" --size 160x120
+ok "is a PNG" is_png "$tmp/a.png"
+ok "again" "$gnomon" render --size=160x120 -o "$tmp/b.png" -- $scenes/cube_point.gltf
+ok "two runs give identical bytes" cmp "$tmp/a.png" "$tmp/b.png"
+for platform in egl osmesa; do
+    ok "masks by $platform" "$gnomon" render $scenes/colours.gltf --mask-dir "$tmp/$platform" --size 160x120 --platform $platform
+done
+ok "four masks" sh -c "[ \$(ls $tmp/egl | wc -l) = 4 ]"
+ok "egl and osmesa give identical masks" diff -r "$tmp/egl" "$tmp/osmesa"
+ok "a mask has grey and alpha" sh -c "[ \$(od -An -tu1 -j 25 -N 1 $tmp/egl/light0.png) = 4 ]"
+for show in volumes silhouette mask; do
+    ok "--show $show" "$gnomon" render $scenes/cube_point.gltf -o "$tmp/$show.png" --size 160x120 --show $show
+    ok "--show $show changes the picture" sh -c "! cmp -s $tmp/$show.png $tmp/a.png"
+done
+
+ok "an animation" "$gnomon" render $scenes/animated.gltf -o "$tmp/moved.png" --frames 30 --size 160x120
+ok "its first frame" "$gnomon" render $scenes/animated.gltf -o "$tmp/still.png" --size 160x120
+ok "the scene has moved" sh -c "! cmp -s $tmp/moved.png $tmp/still.png"
+
+ok "a report and a plan" "$gnomon" render $scenes/colours.gltf --frames 20 --spin 1 --report "$tmp/r.json" --plan "$tmp/p.json" --size 160x120
+ok "both are JSON" python3 -c "import json; json.load(open('$tmp/r.json')); json.load(open('$tmp/p.json'))"
+for key in driver renderer target size frames lights method scale reason casters case1 case2 case3 counts draws vertices indices \
+    bytes_sent state_changes allocations fragments_rasterised fragments_passed ms frame same_passes_without_volumes \
+    one_pass_without_shadows median p5 p95; do
+    has "$tmp/r.json" "\"$key\"" || { echo "not ok the report has no $key"; failed=1; }
+done
+ok "no allocation after the first frame" [ "$(numbers "$tmp/r.json" allocations)" = 0 ]
+ok "fragments are counted" [ "$(numbers "$tmp/r.json" fragments_rasterised)" -gt 1000 ]
+ok "fewer pass than are rasterised" [ "$(numbers "$tmp/r.json" fragments_passed)" -lt "$(numbers "$tmp/r.json" fragments_rasterised)" ]
+
+printf '{"asset": {"version": "2.0"}}' > "$tmp/empty.gltf"
+ok "an empty scene is drawn" "$gnomon" render "$tmp/empty.gltf" -o "$tmp/empty.png" --size 16x16
+ok "and says that it placed a camera and a light" sh -c "[ \$($gnomon render $tmp/empty.gltf -o $tmp/empty.png --size 16x16 2>&1 | grep -c placed) = 2 ]"
+rm -rf "$tmp"
+exit $failed

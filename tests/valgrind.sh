@@ -1,0 +1,20 @@
+#!/bin/sh
+# valgrind.sh BUILD - the tests without a GL, and one frame and mask on softpipe (llvmpipe's generated code is not checked).
+# Fails on any error that is gnomon's: leaks, invalid accesses, uninitialised values.
+build=$1
+check() {
+    echo "valgrind: $*"
+    valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite --suppressions=tests/mesa.supp "$@" > "$build/valgrind.log" 2>&1 ||
+        { cat "$build/valgrind.log"; exit 1; }
+}
+set -e
+for test in "$build"/tests/core/test_* "$build"/tests/gltf/test_gltf "$build"/tests/gltf/test_gltf_scene "$build"/tests/gles/test_walk; do
+    case $test in *.d|*.o|*test_laws) continue ;; esac
+    check "$test"
+done
+export GALLIUM_DRIVER=softpipe
+for scene in cube_point soup ortho; do
+    check "$build/gnomon" render "build/scenes/$scene.gltf" --size 64x48 -o "$build/valgrind.png" --mask-dir "$build/valgrind" --report "$build/valgrind.json"
+done
+rm -rf "$build/valgrind" "$build/valgrind.png" "$build/valgrind.json" "$build/valgrind.log"
+echo "valgrind: clean"

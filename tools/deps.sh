@@ -1,0 +1,37 @@
+#!/bin/sh
+# deps.sh - finds what building and testing gnomon needs and this machine lacks. As root on Debian it installs it; otherwise it
+# prints the one command that does. Where nothing is missing it says nothing.
+missing=
+need() { # package, then a command that succeeds where it is there
+    package=$1
+    shift
+    "$@" >/dev/null 2>&1 || missing="$missing $package"
+}
+header() { printf '#include <%s>\n' "$1" | ${CC:-gcc} -E - ; }
+library() { ldconfig -p 2>/dev/null | grep -q "$1" || /sbin/ldconfig -p 2>/dev/null | grep -q "$1"; }
+
+need gcc command -v gcc
+need g++ command -v g++
+need libc6-dev header stdio.h
+need binutils command -v nm
+need pkg-config command -v pkg-config
+need python3 command -v python3
+need libcjson-dev header cjson/cJSON.h
+need libpng-dev header png.h
+need libcmocka-dev test -e /usr/include/cmocka.h
+need libgles-dev header GLES2/gl2.h
+need libegl-dev header EGL/egl.h
+need libegl1 library libEGL.so.1
+need libgles2 library libGLESv2.so.2
+need libgl1-mesa-dri sh -c 'ls /usr/lib/*/dri/swrast_dri.so'
+need libosmesa6 library libOSMesa.so
+
+[ -z "$missing" ] && exit 0
+if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then
+    echo "installing:$missing"
+    apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
+else
+    echo "missing:$missing"
+    echo "on Debian: apt-get install --no-install-recommends$missing"
+    exit 1
+fi
