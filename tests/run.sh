@@ -20,14 +20,21 @@ count() { # name, exit status, output file
     cat "$3" >> "$log"
 }
 
+# GL drivers keep memory until the process ends, and once unloaded they have no names to be excused by: leaks of what opens one are
+# looked for by valgrind and by the counting port instead.
+without_leaks() { ASAN_OPTIONS=detect_leaks=0 "$@"; }
+
 for program in "$@"; do
-    "$program" > "$build/one.log" 2>&1
+    case $program in
+    */gles/*) without_leaks "$program" > "$build/one.log" 2>&1 ;;
+    *) "$program" > "$build/one.log" 2>&1 ;;
+    esac
     count "${program#"$build"/}" $? "$build/one.log"
 done
-sh tests/tools/command.sh "$build" > "$build/one.log" 2>&1
+without_leaks sh tests/tools/command.sh "$build" > "$build/one.log" 2>&1
 count tests/tools/command.sh $? "$build/one.log"
 if [ -x "$build/tests/truth/truth_table" ]; then
-    "$build/tests/truth/truth_table" ${TRUTH_ARGS:-} build/scenes > "$build/truth.txt" 2>&1
+    without_leaks "$build/tests/truth/truth_table" ${TRUTH_ARGS:-} build/scenes > "$build/truth.txt" 2>&1
     status=$?
     if [ $status = 0 ]; then echo "ok the masks of all scenes"; else echo "not ok the masks of all scenes"; grep -E 'WRONG|FEW|cannot|differ|no truth' "$build/truth.txt"; fi > "$build/one.log"
     count tests/truth/truth_table $status "$build/one.log"

@@ -143,7 +143,7 @@ static void the_centre_is_exact(void **state)
 
         clear();
         for (int i = 0; i < 30; i++) {
-            const float x = (float)(offset + test_uniform(&rng, -3, 3)), y = (float)test_uniform(&rng, 1, 1.9);
+            const float x = (float)(offset + test_uniform(&rng, -3, 3)), y = (float)test_uniform(&rng, 1, 7);
 
             test_add_vertex(&m, x, y, (float)-test_uniform(&rng, 7, 8));
             if (i % 3 == 2)
@@ -213,6 +213,7 @@ static void chunks_reach_everything(void **state)
         }
     }
     assert_int_equal(triangles, info->triangle_count);
+    assert_int_equal(mesh->chunk_edges[0], 0);
     assert_int_equal(mesh->chunk_edges[info->chunk_count], info->edge_count);
     gn_mesh_destroy(mesh);
     free(positions);
@@ -285,8 +286,10 @@ static void odd_meshes_are_lawful(void **state)
     assert_int_equal(gn_silhouette(mesh, casting, edges, 24, &count), GN_OK);
     assert_int_equal(count, 3); /* multiplicity five */
     assert_int_equal(edges[0].weight, 5);
+    edges[2].weight = 99;
     assert_int_equal(gn_silhouette(mesh, casting, edges, 2, &count), GN_E_SPACE);
     assert_int_equal(count, 3);
+    assert_int_equal(edges[2].weight, 99); /* nothing is written beyond the capacity */
     assert_int_equal(gn_mesh_get_info(mesh)->planar, 1);
     gn_mesh_destroy(mesh);
 }

@@ -202,6 +202,7 @@ static void infinity_is_not_clipped(void **state)
 /* The box far from the origin, with the camera beside it, gets the matrices of the box at the origin. */
 static void distance_from_the_origin_does_not_matter(void **state)
 {
+    const double far_off = 1048576.0 + 1.0 / 64.0; /* more digits than a float has */
     const gn_plan *near_plan, *far_plan;
     void *near_memory, *far_memory;
     fixture f;
@@ -210,9 +211,9 @@ static void distance_from_the_origin_does_not_matter(void **state)
     make_fixture(&f);
     near_plan = make_plan(&f, &near_memory);
     for (int i = 0; i < 2; i++)
-        f.objects[i].model[12] += 1048576.0;
-    f.scene.camera.world[12] += 1048576.0;
-    f.lights[0].position[0] += 1048576.0;
+        f.objects[i].model[12] += far_off;
+    f.scene.camera.world[12] += far_off;
+    f.lights[0].position[0] += far_off;
     far_plan = make_plan(&f, &far_memory);
     assert_memory_equal(near_plan->objects[0].matrix, far_plan->objects[0].matrix, sizeof far_plan->objects[0].matrix);
     assert_int_equal(near_plan->index_count, far_plan->index_count);
