@@ -1,7 +1,7 @@
 # gnomon. `make help` lists the targets.
 #
 # VARIANT: release debug asan size. CROSS: a board's compiler prefix (arm-linux-gnueabihf-).
-# CC, CFLAGS, CPPFLAGS, LDFLAGS, AR, PKG_CONFIG, PREFIX, DESTDIR mean what they mean everywhere.
+# V=1 shows whole commands. CC, CFLAGS, CPPFLAGS, LDFLAGS, AR, PKG_CONFIG, PREFIX, DESTDIR mean what they mean everywhere.
 VARIANT    ?= release
 CROSS      ?=
 PREFIX     ?= /usr/local
@@ -39,10 +39,11 @@ INCLUDE        = $(INC_$(firstword $(subst /, ,$<)))
 TOOL_LIBS  = $(shell $(PKG_CONFIG) --libs libcjson libpng) -ldl -lm
 TEST_LIBS  = $(shell $(PKG_CONFIG) --libs cmocka) $(TOOL_LIBS)
 
+Q       := $(if $(V),,@)
 objects  = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)))
 LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c)
 TOOLS   := $(filter-out $(B)/tools/main.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
-SUPPORT := $(call objects,tests/support/*.c port/port_template.c)
+SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/*))
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
 PUBLIC  := port/gn_port.h core/gnomon.h core/gn_matrix.h gles/gnomon_gles.h gles/gn_gl.h gles/gl_funcs.h
@@ -76,13 +77,13 @@ layers: $(B)/libgnomon.a ## arrows point down only; the library takes memory fro
 	@! grep -nE '#include.*(gnomon|gni|scene)' platforms/*.[ch]
 	@! grep -nE '#include.*gni' tools/*.[ch] tools/*/*.[ch]
 	@! $(CROSS)nm -u $(filter-out %/port_libc.o,$(LIBRARY)) | grep -E ' U (e?gl[A-Z].*|malloc|calloc|realloc|free|fopen|printf)$$'
-	@$(CROSS)size -A $(LIBRARY) | awk '$$1 == ".data" || $$1 == ".bss" {n += $$2} END {exit n != 0}'
+	@[ $(VARIANT) = asan ] || $(CROSS)size -A $(LIBRARY) | awk '$$1 == ".data" || $$1 == ".bss" {n += $$2} END {exit n != 0}'
 
 check-build: all ## install into a scratch root and build a program against what is there
 	@sh tests/install.sh $(B) "$(CC)"
 
 asan: ## the tests under ASan and UBSan
-	@$(MAKE) --no-print-directory VARIANT=asan test
+	@TRUTH_ARGS="--size 160x120" $(MAKE) --no-print-directory VARIANT=asan test
 
 valgrind: $(TESTS) $(B)/gnomon $(SCENES) ## the tests that matter for memory under valgrind
 	@sh tests/valgrind.sh $(B)
@@ -111,15 +112,19 @@ help: ## this list
 	@awk -F':.*## ' '/^[a-z-]+:.*## / {printf "  %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 $(B)/libgnomon.a: $(LIBRARY)
+	@echo "  ar    $@"
 	@rm -f $@
-	$(AR) rcs $@ $^
+	$(Q)$(AR) rcs $@ $^
 $(B)/gnomon: $(B)/tools/main.o $(TOOLS) $(B)/libgnomon.a
-	$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+	@echo "  link  $@"
+	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
 $(B)/tests/%: $(B)/tests/%.o $(SUPPORT) $(TOOLS) $(B)/libgnomon.a
-	$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TEST_LIBS) -o $@
+	@echo "  link  $@"
+	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TEST_LIBS) -o $@
 $(B)/%.o: %.c | $(SHADERS)
 	@mkdir -p $(@D)
-	$(CC) $(FLAGS) -c $< -o $@
+	@echo "  cc    $<"
+	$(Q)$(CC) $(FLAGS) -c $< -o $@
 # A shader becomes a C string: comments go, lines stay, so that the driver's line numbers are the file's.
 $(B)/%.h: %
 	@mkdir -p $(@D)

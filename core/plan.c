@@ -85,9 +85,10 @@ static int lay_out(draft *d, arena *a)
 
 size_t gn_plan_bound(const gn_scene *scene)
 {
-    draft d = {NULL};
+    draft d;
     arena a = {NULL, 0, 0};
 
+    memset(&d, 0, sizeof d);
     d.scene = scene;
     return scene && lay_out(&d, &a) ? a.used : 0;
 }
@@ -384,7 +385,7 @@ static gn_result add_light(draft *d, uint32_t light, int *stencil_used)
 
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan)
 {
-    draft d = {NULL};
+    draft d;
     arena a = {memory, 0, 0};
     int stencil_used = 0;
     size_t needed;
@@ -401,6 +402,7 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     if (needed == 0 || size < needed)
         return gn_fail(context, GN_E_SPACE, "gn_plan_make: %lu bytes given, %lu needed", (unsigned long)size,
                         (unsigned long)needed);
+    memset(&d, 0, sizeof d);
     d.context = context;
     d.scene = scene;
     lay_out(&d, &a);

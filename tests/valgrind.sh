@@ -2,9 +2,10 @@
 # valgrind.sh BUILD - the tests without a GL, and one frame and mask on softpipe (llvmpipe's generated code is not checked).
 # Fails on any error that is gnomon's: leaks, invalid accesses, uninitialised values.
 build=$1
+${CC:-cc} -shared -fPIC tests/support/keep_open.c -o "$build/keep_open.so"
 check() {
     echo "valgrind: $*"
-    valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite --suppressions=tests/mesa.supp "$@" > "$build/valgrind.log" 2>&1 ||
+    LD_PRELOAD="$PWD/$build/keep_open.so" valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite --suppressions=tests/mesa.supp "$@" > "$build/valgrind.log" 2>&1 ||
         { cat "$build/valgrind.log"; exit 1; }
 }
 set -e
@@ -16,5 +17,5 @@ export GALLIUM_DRIVER=softpipe
 for scene in cube_point soup ortho; do
     check "$build/gnomon" render "build/scenes/$scene.gltf" --size 64x48 -o "$build/valgrind.png" --mask-dir "$build/valgrind" --report "$build/valgrind.json"
 done
-rm -rf "$build/valgrind" "$build/valgrind.png" "$build/valgrind.json" "$build/valgrind.log"
+rm -rf "$build/valgrind" "$build/valgrind.png" "$build/valgrind.json" "$build/valgrind.log" "$build/keep_open.so"
 echo "valgrind: clean"

@@ -80,13 +80,14 @@ static int upload_mesh(stage *s, const scene_mesh *m, stage_mesh *out, char mess
 {
     const size_t corners = 3 * (size_t)m->triangle_count;
     const gn_mesh_desc desc = {m->positions, m->vertex_count, 0, m->indices, m->solid_triangle_count};
-    packer p = {NULL};
+    packer p;
     int ok;
 
     if (gn_mesh_create(s->context, &desc, &out->mesh) != GN_OK || gn_gles_upload(s->gles, out->mesh) != GN_OK) {
         snprintf(message, SCENE_MESSAGE, "stage: %s", gn_message(s->context));
         return 0;
     }
+    memset(&p, 0, sizeof p);
     /* a vertex may be in several batches: at most as many as there are corners */
     p.vertices = malloc((corners + 1) * FLOATS * sizeof(float));
     p.indices = out->index_copy = malloc((corners + 1) * sizeof(uint16_t));
