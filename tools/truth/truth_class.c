@@ -5,9 +5,10 @@
  *           points close beside it are lit.
  * SNAPPED   Rasterisers round vertices to 1/256 pixel. Is anything else seen, and is its state another, at eight points
  *           1/256 pixel from the centre? Snapping moves x and y but not depth, so a surface seen at a slope also comes
- *           nearer or recedes by what its depth changes in 1/256 pixel: does that flip it? Does a silhouette edge of the
- *           light, where attached shadow begins, come within 1/256 pixel of the centre in plain sight? Or is the surface so
- *           nearly edge-on to the light that a float cannot tell which of its sides is lit?
+ *           nearer or recedes by what its depth changes in 1/256 pixel: does that flip it? Does an outline, or a silhouette
+ *           edge of the light, come within 1/256 pixel of the centre in plain sight? A triangle that snapping brings there has
+ *           the depths of its plane beyond its edge. Or is the surface so nearly edge-on to the light that a float cannot tell
+ *           which of its sides is lit?
  * DEPTH     Does it flip when the point is moved along the view ray by 1 or 2 steps of the depth buffer, or is there
  *           another surface of another state within 2 steps, or znear or zfar itself?
  *
@@ -198,9 +199,8 @@ static int is_in_sight(void *user, const double a[3], const double b[3])
     return fmin(truth_dot(a, forward), truth_dot(b, forward)) <= is->centre->depth * (1.0 + 1e-6);
 }
 
-/* Whether the light's silhouette passes within 1/256 pixel of the centre, in sight. Where a rasteriser's snapped triangle
- * covers a centre that the true one misses, depths are those of the triangle's plane beyond its edge: cap and side then come
- * in the wrong order. deepest: of what is seen within 1/256 pixel. */
+/* Whether the light's silhouette passes within 1/256 pixel of the centre, in sight: beyond the edge, cap and side come in
+ * the wrong order. deepest: of what is seen within 1/256 pixel. */
 static int silhouette_near(truth_pass *p, const truth_point *c, double x, double y, double deepest)
 {
     static const double corners[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
@@ -233,7 +233,7 @@ static int is_snapped(truth_pass *p, const truth_point *c, double x, double y, i
 {
     const truth *t = p->t;
     const double cosine = truth_facing(p, c);
-    double change, deepest = c->depth;
+    double change, deepest = c->depth, slope = 0.0;
 
     if ((remarks & TRUTH_SNAP_VISIBLE) || fabs(cosine) < FLOAT_EDGE_ON)
         return 1;
@@ -249,9 +249,16 @@ static int is_snapped(truth_pass *p, const truth_point *c, double x, double y, i
         truth_point_set(&beside, t, sx, sy, seen, depth);
         if (truth_is_lit(p, &beside) != lit)
             return 1;
+        if (seen != c->triangle) {
+            if (slope == 0.0)
+                slope = depth_slope(t, c, x, y);
+            /* an outline: farther apart than two surfaces that meet at an edge can be */
+            if (fabs(depth - c->depth) > 2.0 * TRUTH_SNAP * (slope + depth_slope(t, &beside, sx, sy)) + 1e-6 * fabs(depth))
+                return 1;
+        }
         deepest = fmax(deepest, depth);
     }
-    if ((remarks & TRUTH_SNAP_TRIANGLE) && lit && silhouette_near(p, c, x, y, deepest))
+    if ((remarks & TRUTH_SNAP_TRIANGLE) && silhouette_near(p, c, x, y, deepest))
         return 1;
     if (cosine < 0.0 || !(t->rays.triangles[c->triangle].flags & TRUTH_RECEIVES))
         return 0;
