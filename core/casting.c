@@ -88,7 +88,8 @@ void gn_casting(const gn_mesh *mesh, const double light[4], int8_t *casting)
     }
 }
 
-int gn_light_in_object(const gn_light *light, const gn_object *object, double out[4])
+/* The light in the space of an object's mesh, less its centre: independent of the camera. 0 when the matrix is singular. */
+static int light_in_object(const gn_light *light, const gn_object *object, double out[4])
 {
     const float *centre = object->mesh->info.centre;
     const double c[3] = {(double)centre[0], (double)centre[1], (double)centre[2]};
@@ -103,4 +104,52 @@ int gn_light_in_object(const gn_light *light, const gn_object *object, double ou
     gn_mat4_transform(out, inverse, v, 0.0);
     out[3] = is_sun ? 0.0 : 1.0;
     return 1;
+}
+
+/* Facing of triangles as they lie flattened in the world. */
+static void facing_flattened(const gn_object *object, const gn_light *light, int8_t *facing)
+{
+    const gn_mesh *mesh = object->mesh;
+    const int is_sun = light->kind == GN_LIGHT_DIRECTIONAL;
+
+    for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
+        double v[3][3], plane[4], at[4] = {0, 0, 0, is_sun ? 0.0 : 1.0};
+
+        for (int k = 0; k < 3; k++) {
+            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
+            double x[3];
+
+            for (int axis = 0; axis < 3; axis++)
+                x[axis] = (double)p[axis] + (double)mesh->info.centre[axis];
+            gn_mat4_transform(v[k], object->model, x, 1.0);
+        }
+        for (int axis = 0; axis < 3; axis++) {
+            const int y = (axis + 1) % 3, z = (axis + 2) % 3;
+
+            plane[axis] = (v[1][y] - v[0][y]) * (v[2][z] - v[0][z]) - (v[1][z] - v[0][z]) * (v[2][y] - v[0][y]);
+            at[axis] = is_sun ? light->towards[axis] : light->position[axis] - v[0][axis];
+        }
+        plane[3] = 0.0;
+        facing[t] = facing_of(plane, at);
+    }
+}
+
+void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *facing)
+{
+    double at[4];
+
+    if (light_in_object(light, object, at))
+        gn_facing(object->mesh, at, facing);
+    else
+        facing_flattened(object, light, facing);
+}
+
+void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *casting)
+{
+    double at[4];
+
+    if (light_in_object(light, object, at))
+        gn_casting(object->mesh, at, casting);
+    else
+        facing_flattened(object, light, casting);
 }

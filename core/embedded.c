@@ -2,7 +2,7 @@
  *
  * Every pair of triangles whose boxes meet is looked at, found by a tree of boxes over the part. The answer is one-sided: a
  * pair counts as apart only where double precision is sure of it, since "not sure" merely makes every triangle of the part
- * cast (parts.c). The first pair that is not surely apart ends the search.
+ * cast (parts.c). The first pair that is not surely apart ends the search, and so does a budget.
  *
  * Two triangles without a common vertex: separating axes. With one: two flat sectors that meet at their apex. With two: the
  * fold along the common edge. With three: never apart. */
@@ -12,6 +12,9 @@
 #include <string.h>
 
 #define LEAF 4u
+/* Pairs of boxes looked at for each triangle before the proof is given up: smooth meshes need 5 to 15. Many long triangles around
+ * one vertex would take the square of their number. */
+#define BUDGET 64u
 /* Signs are trusted beyond this share of the largest term: coordinates are floats, so that a double product of three
  * differences errs by some 2^-51 of it. */
 #define DOUBT 1e-14
@@ -28,6 +31,7 @@ typedef struct tree {
     uint32_t *order;  /* positions in the part's list */
     node *nodes;
     uint32_t node_count, first_triangle;
+    uint64_t budget; /* pairs of boxes that may still be looked at */
 } tree;
 
 static void cross(double out[3], const double a[3], const double b[3])
@@ -251,10 +255,14 @@ static int meet(const float a[6], const float b[6])
 }
 
 /* 1 when everything below a is apart from everything below b; a may be b. */
-static int nodes_apart(const tree *t, uint32_t a, uint32_t b)
+static int nodes_apart(tree *t, uint32_t a, uint32_t b)
 {
     const node *na = &t->nodes[a], *nb = &t->nodes[b];
 
+    if (t->budget-- == 0) {
+        t->budget = 0;
+        return 0;
+    }
     if (a != b && !meet(na->box, nb->box))
         return 1;
     if (na->count && nb->count) {
@@ -274,7 +282,7 @@ static int nodes_apart(const tree *t, uint32_t a, uint32_t b)
 int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part)
 {
     gn_context *context = mesh->context;
-    tree t = {mesh, NULL, NULL, NULL, 0, part->first_triangle};
+    tree t = {mesh, NULL, NULL, NULL, 0, part->first_triangle, BUDGET * ((uint64_t)part->triangle_count + LEAF)};
     int result = -1;
 
     t.box = gni_alloc(context, part->triangle_count, sizeof *t.box);

@@ -19,7 +19,7 @@
 #include <math.h>
 #include <string.h>
 
-#define MARGIN (1.0 / 256.0) /* of a box's diagonal: far more than a depth step, far less than a scene */
+#define MARGIN (1.0 / 4096.0) /* of the diagonal of what is seen: many steps of even 16 bits of depth, and no more */
 
 static void grow(double low[3], double high[3], const double p[3])
 {
@@ -49,6 +49,27 @@ static void add_margin(double low[3], double high[3])
     for (int axis = 0; axis < 3; axis++) {
         low[axis] -= margin;
         high[axis] += margin;
+    }
+}
+
+/* Cuts the box along the world's axes down to what the box along the view's axes reaches: a floor as wide as the world is seen
+ * only so far. */
+static void clip_by_view(double low[3], double high[3], const double view_low[3], const double view_high[3],
+                         const double axes[16])
+{
+    double reach_low[3] = {INFINITY, INFINITY, INFINITY}, reach_high[3] = {-INFINITY, -INFINITY, -INFINITY};
+
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] = corner >> axis & 1 ? view_high[axis] : view_low[axis];
+        gn_mat4_transform(p, axes, p, 0.0);
+        grow(reach_low, reach_high, p);
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        low[axis] = fmax(low[axis], reach_low[axis]);
+        high[axis] = fmin(high[axis], reach_high[axis]);
     }
 }
 
@@ -104,6 +125,7 @@ void gni_receiver_region(gni_region *region, const gn_scene *scene)
     region->empty = !(low[0][0] < high[0][0] && low[0][1] < high[0][1] && low[0][2] < high[0][2]);
     if (region->empty)
         return;
+    clip_by_view(low[1], high[1], low[0], high[0], axes);
     for (int box = 0; box < 2; box++) {
         add_margin(low[box], high[box]);
         faces(region->planes + 6 * box, low[box], high[box]);
@@ -258,9 +280,7 @@ static int choose_each(gni_ends *ends, const search *s, const int8_t *casting, u
 
             own_plane(s, v, plane);
             d = depth_on(s, plane, v);
-            if (d < depth) {
-                if (ends->count == GNI_MAX_ENDS)
-                    return 0;
+            if (d < depth && ends->count < GNI_MAX_ENDS) {
                 memcpy(ends->planes[ends->count], plane, sizeof plane);
                 best = (int)ends->count++;
                 depth = d;

@@ -99,7 +99,7 @@ double gni_depth_of(const gn_camera *camera, const double range[2], double dista
 void gni_extrusion(double out[16], const double light[4], const double plane[4]);
 
 /* ends.c: where the volumes of an orthographic camera end. */
-#define GNI_MAX_ENDS 32 /* end planes of one caster for one light */
+#define GNI_MAX_ENDS 250 /* end planes of one caster for one light; a byte names one */
 
 typedef struct gni_region {
     double planes[12][4]; /* view space: faces of boxes that hold everything visible that receives, and a margin; > 0 inside */
@@ -119,7 +119,7 @@ typedef struct gni_ends {
 } gni_ends;
 
 /* Chooses end planes. light: [4] view space. end_of: [triangle_count] receives the plane of each casting triangle, or
- * GNI_MAX_ENDS for one that shadows nothing visible. Returns 0 when GNI_MAX_ENDS planes do not do. */
+ * GNI_MAX_ENDS for one that shadows nothing visible. Returns 0 when no GNI_MAX_ENDS planes end them all. */
 int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mesh, const double model_view[16],
                     const double light[4], const int8_t *casting, uint8_t *end_of);
 #endif

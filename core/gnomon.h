@@ -100,6 +100,7 @@ typedef struct gn_mesh_info {
     uint32_t edge_count;
     uint32_t part_count;        /* connected through edges that two triangles share */
     uint32_t solid_part_count;  /* closed, wound alike, not passing through themselves: only their lit triangles cast */
+    uint32_t outward_part_count;  /* solid parts whose front faces look outward */
     uint32_t chunk_count;
     int planar;                 /* all triangles lie in one plane */
     const float *positions;         /* [vertex_count][3], welded, less the centre */
@@ -110,7 +111,7 @@ typedef struct gn_mesh_info {
 
 /* Copies what it needs. Vertices are welded by exact position (-0 equals 0). Degenerate and duplicate triangles are
  * lawful; a mesh may have no triangle at all. Returns GN_OK, GN_E_ARG, GN_E_MESH, GN_E_MEMORY; *mesh is NULL unless GN_OK.
- * Time O(triangles log triangles); holds about 140 bytes a triangle. */
+ * Time O(triangles log triangles); holds about 90 bytes a triangle. */
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **mesh);
 void gn_mesh_destroy(gn_mesh *mesh);
 const gn_mesh_info *gn_mesh_get_info(const gn_mesh *mesh);
@@ -164,20 +165,21 @@ typedef struct gn_light {
 enum {
     GN_CASTS = 1,    /* its triangles block light */
     GN_RECEIVES = 2, /* it is drawn under the mask; without: lit as if nothing stood in the way */
-    GN_DRAWN = 4     /* every one of its triangles that the eye could see is drawn to depth, from both sides or as a closed
-                        single-sided mesh; not when some are cut by alpha, culled on an open mesh, or left out */
+    GN_DRAWN = 4     /* every one of its triangles that the eye could see is drawn to depth: from both sides, or single-sided
+                        where all parts are solid and wound outward; not when some are cut by alpha or left out */
 };
 
 /* A mesh in the world: caster, receiver, or both. Start from {0}. */
 typedef struct gn_object {
     const gn_mesh *mesh; /* borrowed while the plan lives */
-    double model[16];    /* object to world; last row 0 0 0 1. A singular one casts nothing, and the plan warns */
+    double model[16];    /* object to world; last row 0 0 0 1 */
     unsigned flags;      /* of GN_CASTS, GN_RECEIVES, GN_DRAWN */
 } gn_object;
 
-/* The light as gn_facing() and gn_casting() want it for an object's mesh: object space less the mesh's centre. Independent of
- * the camera. Returns 1, or 0 (out untouched) when the model matrix is singular. */
-int gn_light_in_object(const gn_light *light, const gn_object *object, double out[4]);
+/* gn_facing() and gn_casting() for an object in the world: [triangle_count]. A model matrix without inverse, which flattens the
+ * object, is lawful: then fronts are those of the flattened triangles, and every one of them casts. */
+void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *facing);
+void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *casting);
 
 /* What is drawn into. gn_gles_describe_target() fills it. */
 typedef struct gn_target {
@@ -287,7 +289,8 @@ typedef struct gn_plan {
     uint32_t light_count;
     const gn_plan_object *objects;
     uint32_t object_count;
-    uint32_t singular_casters; /* a warning: objects left out because their model matrix has no inverse */
+    uint32_t endless_casters; /* a warning: volumes of orthographic cameras left out, because the light is so close to so many large
+                                 triangles that their ends need too many planes. One is counted for each light */
 } gn_plan;
 
 /* Bytes that gn_plan_make() may need for this scene at most, whatever the camera, the lights' places and the model matrices

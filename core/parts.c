@@ -146,6 +146,7 @@ static gn_result classify(gn_mesh *mesh)
                 part->outward = 0;
         }
         mesh->info.solid_part_count += part->outward != 0;
+        mesh->info.outward_part_count += part->outward > 0;
     }
     return GN_OK;
 }

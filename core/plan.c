@@ -46,7 +46,7 @@ typedef struct draft {
     uint8_t *end_of;
     gni_region *region;
     gni_ends *ends;
-    double projection[16];
+    double projection[16], view[16];
 } draft;
 
 /* Cuts every array of a plan at its greatest size. Returns 0 when the sizes do not fit. */
@@ -54,18 +54,22 @@ static int lay_out(draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
     size_t records = 0, indices = 0, triangles = 0;
+    const size_t most = UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
 
     for (uint32_t i = 0; i < s->object_count; i++) {
         const gn_mesh *mesh = s->objects[i].mesh;
+        size_t ends = 1;
 
         if (!mesh || !(s->objects[i].flags & GN_CASTS))
             continue;
-        records += (size_t)mesh->info.chunk_count * (s->camera.orthographic ? GNI_MAX_ENDS : 1);
+        if (s->camera.orthographic)
+            ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
+        if (mesh->info.chunk_count > (most - records) / ends || mesh->info.triangle_count > (most - indices) / 24)
+            return 0;
+        records += mesh->info.chunk_count * ends;
         indices += gni_volume_bound(mesh);
         triangles = triangles < mesh->info.triangle_count ? mesh->info.triangle_count : triangles;
     }
-    if (s->light_count && (records > UINT32_MAX / s->light_count || indices > UINT32_MAX / s->light_count))
-        return 0;
     d->plan = cut(a, 1, sizeof *d->plan);
     d->steps = cut(a, 3 + 4 * (size_t)s->light_count, sizeof *d->steps);
     d->lights = cut(a, s->light_count, sizeof *d->lights);
@@ -186,25 +190,38 @@ static unsigned parts_for(gn_method method, const gn_object *object)
     return GN_SIDES | GN_LIGHT_CAP;
 }
 
-/* One closed volume: the casting triangles of one end plane, a record for each chunk that has any of it. */
-static void add_records(draft *d, uint32_t light, uint32_t object_index, const int8_t *casting, const double end_plane_object[4],
-                        const double end_plane_world[4], const double light_object[4])
+/* Planes go the other way: a plane p of view space is p m in object space, row times matrix. */
+static void plane_before(double out[4], const double plane[4], const double m[16])
+{
+    double r[4];
+
+    for (int column = 0; column < 4; column++)
+        r[column] = plane[0] * m[4 * column] + plane[1] * m[4 * column + 1] + plane[2] * m[4 * column + 2] +
+                    plane[3] * m[4 * column + 3];
+    memcpy(out, r, sizeof r);
+}
+
+/* One closed volume: the casting triangles of one end plane (view space), a record for each chunk that has any of it. Everything
+ * is extruded in view space: no inverse of the model matrix is needed. */
+static void add_records(draft *d, uint32_t light, uint32_t object_index, const int8_t *casting, const double light_view[4],
+                        const double end_plane[4])
 {
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
     const unsigned parts = parts_for(d->lights[light].method, object);
-    const int at_infinity = end_plane_object[0] == 0.0 && end_plane_object[1] == 0.0 && end_plane_object[2] == 0.0;
-    double model_view[16], far_matrix[16], extrusion[16];
+    const int at_infinity = end_plane[0] == 0.0 && end_plane[1] == 0.0 && end_plane[2] == 0.0;
+    const int converging = at_infinity && light_view[3] == 0.0;
+    double matrix[16], extrusion[16], far_matrix[16], plane_world[4];
 
-    gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
-    gni_extrusion(extrusion, light_object, end_plane_object);
-    gn_mat4_multiply(far_matrix, d->projection, model_view);
-    gn_mat4_multiply(far_matrix, far_matrix, extrusion);
+    gni_extrusion(extrusion, light_view, end_plane);
+    gni_model_view(matrix, &d->scene->camera, object->model, mesh->info.centre);
+    gn_mat4_multiply(far_matrix, d->projection, extrusion);
+    gn_mat4_multiply(far_matrix, far_matrix, matrix);
+    plane_before(plane_world, end_plane, d->view);
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         gn_record *r = &d->records[d->plan->record_count];
         gni_stream stream;
-        const uint32_t count = gni_volume_indices(mesh, c, casting, parts, at_infinity && light_object[3] == 0.0,
-                                                  d->indices + d->plan->index_count, &stream);
+        const uint32_t count = gni_volume_indices(mesh, c, casting, parts, converging, d->indices + d->plan->index_count, &stream);
 
         if (count == 0)
             continue;
@@ -220,82 +237,60 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
         r->light_cap_count = stream.light_cap;
         r->turned_cap_count = stream.turned_cap;
         r->mirrored = d->objects[object_index].mirrored;
-        memcpy(r->end_plane, end_plane_world, sizeof r->end_plane);
+        memcpy(r->end_plane, plane_world, sizeof r->end_plane);
         gn_mat4_to_float(r->far_matrix, far_matrix);
         d->plan->index_count += count;
         d->plan->record_count++;
     }
 }
 
-/* Planes go the other way: a plane p of view space is p m in object space, row times matrix. */
-static void plane_before(double out[4], const double plane[4], const double m[16])
-{
-    double r[4];
-
-    for (int column = 0; column < 4; column++)
-        r[column] = plane[0] * m[4 * column] + plane[1] * m[4 * column + 1] + plane[2] * m[4 * column + 2] +
-                    plane[3] * m[4 * column + 3];
-    memcpy(out, r, sizeof r);
-}
-
 /* An orthographic caster's volumes, one for each end plane. */
-static gn_result add_ended(draft *d, uint32_t light, uint32_t object_index, const double light_object[4])
+static void add_ended(draft *d, uint32_t light, uint32_t object_index, const double light_view[4])
 {
-    const gn_camera *camera = &d->scene->camera;
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
-    double model_view[16], light_view[4], view[16];
+    double model_view[16];
 
-    static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    static const float no_centre[3] = {0, 0, 0};
-
-    gni_model_view(model_view, camera, object->model, mesh->info.centre);
-    gni_model_view(view, camera, identity, no_centre);
-    light_in_view(d, &d->scene->lights[light], light_view);
-    if (!gni_choose_ends(d->ends, d->region, mesh, model_view, light_view, d->casting, d->end_of))
-        return gn_fail(d->context, GN_E_DEVICE, "orthographic camera: light %lu is so close to object %lu that its volume "
-                        "does not end on %d planes", (unsigned long)light, (unsigned long)object_index, GNI_MAX_ENDS);
+    gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
+    if (!gni_choose_ends(d->ends, d->region, mesh, model_view, light_view, d->casting, d->end_of)) {
+        d->plan->endless_casters++;
+        return;
+    }
     for (uint32_t p = 0; p < d->ends->count; p++) {
-        double in_object[4], in_world[4];
         int any = 0;
 
         for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
             d->group[t] = d->end_of[t] == p ? d->casting[t] : 0;
             any |= d->group[t];
         }
-        if (!any)
-            continue;
-        plane_before(in_object, d->ends->planes[p], model_view);
-        plane_before(in_world, d->ends->planes[p], view);
-        add_records(d, light, object_index, d->group, in_object, in_world, light_object);
+        if (any)
+            add_records(d, light, object_index, d->group, light_view, d->ends->planes[p]);
     }
-    return GN_OK;
 }
 
-static gn_result add_volumes(draft *d, uint32_t light)
+static void add_volumes(draft *d, uint32_t light)
 {
     static const double infinity[4] = {0, 0, 0, 1};
     gn_plan_light *about = &d->lights[light];
-    gn_result result = GN_OK;
+    double light_view[4];
 
-    for (uint32_t i = 0; i < d->scene->object_count && result == GN_OK; i++) {
+    light_in_view(d, &d->scene->lights[light], light_view);
+    for (uint32_t i = 0; i < d->scene->object_count; i++) {
         const gn_object *object = &d->scene->objects[i];
         const uint32_t before = d->plan->record_count;
-        double light_object[4];
 
-        if (!(object->flags & GN_CASTS) || !gn_light_in_object(&d->scene->lights[light], object, light_object))
+        if (!(object->flags & GN_CASTS))
             continue;
-        gn_casting(object->mesh, light_object, d->casting);
+        gn_object_casting(object, &d->scene->lights[light], d->casting);
         if (d->scene->camera.orthographic)
-            result = add_ended(d, light, i, light_object);
+            add_ended(d, light, i, light_view);
         else
-            add_records(d, light, i, d->casting, infinity, infinity, light_object);
+            add_records(d, light, i, d->casting, light_view, infinity);
         if (d->plan->record_count > before) {
             about->casters++;
             about->cases[about->method == GN_METHOD_ZPASS ? 0 : 2]++;
         }
     }
-    return result;
 }
 
 /* The depth range of an orthographic camera: from znear to behind all that is seen, all casters and all ends. */
@@ -309,11 +304,11 @@ static void find_range(draft *d)
     for (uint32_t light = 0; light < s->light_count; light++)
         for (uint32_t i = 0; i < s->object_count; i++) {
             const gn_object *object = &s->objects[i];
-            double light_object[4], light_view[4], model_view[16];
+            double light_view[4], model_view[16];
 
-            if (!(object->flags & GN_CASTS) || !gn_light_in_object(&s->lights[light], object, light_object))
+            if (!(object->flags & GN_CASTS))
                 continue;
-            gn_casting(object->mesh, light_object, d->casting);
+            gn_object_casting(object, &s->lights[light], d->casting);
             light_in_view(d, &s->lights[light], light_view);
             gni_model_view(model_view, &s->camera, object->model, object->mesh->info.centre);
             if (gni_choose_ends(d->ends, d->region, object->mesh, model_view, light_view, d->casting, d->end_of))
@@ -339,8 +334,6 @@ static void place_objects(draft *d)
         gni_model_view(m, &d->scene->camera, object->model, object->mesh->info.centre);
         gn_mat4_multiply(m, d->projection, m);
         gn_mat4_to_float(o->matrix, m);
-        if (object->flags & GN_CASTS && !gn_mat4_invert_affine(m, object->model))
-            d->plan->singular_casters++;
     }
 }
 
@@ -359,12 +352,11 @@ static gn_result add_light(draft *d, uint32_t light, int *stencil_used)
 {
     const uint32_t first = d->plan->record_count;
     int others = 0;
-    gn_result result = choose_method(d, &d->lights[light].method, &d->lights[light].reason);
+    const gn_result result = choose_method(d, &d->lights[light].method, &d->lights[light].reason);
 
-    if (result == GN_OK)
-        result = add_volumes(d, light);
     if (result != GN_OK)
         return result;
+    add_volumes(d, light);
     if (d->plan->record_count > first) {
         if (*stencil_used)
             add_step(d, GN_STEP_ZERO, GN_DRAW_NOTHING, light, 0);
@@ -385,6 +377,8 @@ static gn_result add_light(draft *d, uint32_t light, int *stencil_used)
 
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan)
 {
+    static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    static const float no_centre[3] = {0, 0, 0};
     draft d;
     arena a = {memory, 0, 0};
     int stencil_used = 0;
@@ -399,7 +393,10 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     if (result != GN_OK)
         return result;
     needed = gn_plan_bound(scene);
-    if (needed == 0 || size < needed)
+    if (needed == 0)
+        return gn_fail(context, GN_E_SPACE, "gn_plan_make: %lu lights and %lu objects need more indices than 32 bits count",
+                       (unsigned long)scene->light_count, (unsigned long)scene->object_count);
+    if (size < needed)
         return gn_fail(context, GN_E_SPACE, "gn_plan_make: %lu bytes given, %lu needed", (unsigned long)size,
                         (unsigned long)needed);
     memset(&d, 0, sizeof d);
@@ -424,6 +421,7 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     if (scene->camera.zfar != 0.0)
         d.plan->clear_depth = gni_depth_of(&scene->camera, d.plan->depth_range, scene->camera.zfar);
     gni_projection(d.projection, &scene->camera, d.plan->depth_range);
+    gni_model_view(d.view, &scene->camera, identity, no_centre);
     place_objects(&d);
     add_step(&d, GN_STEP_CLEAR, GN_DRAW_NOTHING, 0, 0);
     add_step(&d, GN_STEP_DRAW, GN_DRAW_AMBIENT, 0, 0);

@@ -92,8 +92,8 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
     put_number(&w, plan->depth_range[0]);
     put(&w, ", ");
     put_number(&w, plan->depth_range[1]);
-    put(&w, "], \"indices\": %lu, \"singular_casters\": %lu,\n \"lights\": [", (unsigned long)plan->index_count,
-        (unsigned long)plan->singular_casters);
+    put(&w, "], \"indices\": %lu, \"endless_casters\": %lu,\n \"lights\": [", (unsigned long)plan->index_count,
+        (unsigned long)plan->endless_casters);
     for (uint32_t i = 0; i < plan->light_count; i++) {
         const gn_plan_light *l = &plan->lights[i];
 

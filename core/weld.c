@@ -79,7 +79,7 @@ static void subtract_centre(gn_mesh *mesh)
             low = p < low ? p : low;
             high = p > high ? p : high;
         }
-        if ((low > 0.0f && high <= 2.0f * low) || (high < 0.0f && low >= 2.0f * high))
+        if (info->vertex_count && ((low > 0.0f && high <= 2.0f * low) || (high < 0.0f && low >= 2.0f * high)))
             centre = 0.5f * low + 0.5f * high;
         for (uint32_t v = 0; v < info->vertex_count; v++)
             mesh->positions[3 * (size_t)v + (size_t)axis] -= centre;

@@ -215,8 +215,9 @@ static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_M
 
 static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
 {
-    if (s->plan->singular_casters)
-        say("%u casters have a flattening transform and cast nothing", (unsigned)s->plan->singular_casters);
+    if (s->plan->endless_casters)
+        say("%u shadows are left out: the light is too close to too many large triangles for an orthographic camera",
+            (unsigned)s->plan->endless_casters);
     if (j->show && strcmp(j->show, "volumes") == 0)
         stage_show_volumes(s);
     if (j->show && strcmp(j->show, "silhouette") == 0)

@@ -63,6 +63,7 @@ static void solid_parts_are_told(void **state)
     test_add_box(&m, low, high, 1);
     mesh = create();
     assert_int_equal(gn_mesh_get_info(mesh)->solid_part_count, 1);
+    assert_int_equal(gn_mesh_get_info(mesh)->outward_part_count, 0);
     gn_mesh_destroy(mesh);
     m.triangle_count--; /* a hole */
     mesh = create();
@@ -269,6 +270,7 @@ static void odd_meshes_are_lawful(void **state)
     clear();
     mesh = create();
     assert_int_equal(gn_mesh_get_info(mesh)->part_count, 0);
+    assert_true(gn_mesh_get_info(mesh)->centre[0] == 0.0f && gn_mesh_get_info(mesh)->box_max[2] == 0.0f);
     gn_mesh_destroy(mesh);
     test_add_vertex(&m, 0, 0, 0);
     test_add_vertex(&m, 1, 0, 0);

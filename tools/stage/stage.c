@@ -169,12 +169,12 @@ static void place_camera(const stage *s, gn_camera *camera)
     camera->zfar = from->zfar;
 }
 
-/* Closed and single-sided, or double-sided throughout, and nothing cut: each triangle that could be seen is drawn. */
+/* Closed, wound outward and single-sided, or double-sided throughout, and nothing cut: what could be seen is drawn. */
 static unsigned flags_of(const stage *s, const scene_instance *instance, int casting)
 {
     const scene_mesh *m = &s->scene->meshes[instance->mesh];
     const gn_mesh_info *info = gn_mesh_get_info(s->meshes[instance->mesh].mesh);
-    const int closed = info->solid_part_count == info->part_count;
+    const int closed = info->outward_part_count == info->part_count;
     unsigned flags = GN_DRAWN | (instance->casts && casting ? GN_CASTS : 0u) | (instance->receives ? GN_RECEIVES : 0u);
 
     for (size_t r = 0; r < m->range_count; r++) {

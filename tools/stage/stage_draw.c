@@ -143,13 +143,8 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
     const stage_mesh *m = &s->meshes[instance->mesh];
     const gn_plan_object *object = &s->plan->objects[index];
 
-    if (look->facing_light >= 0) {
-        double light[4];
-
-        if (!gn_light_in_object(&s->lights[look->facing_light], &s->objects[index], light))
-            return;
-        gn_facing(m->mesh, light, s->facing);
-    }
+    if (look->facing_light >= 0)
+        gn_object_facing(&s->objects[index], &s->lights[look->facing_light], s->facing);
     s->gl->glFrontFace(object->mirrored ? GL_CW : GL_CCW);
     for (size_t b = 0; b < m->batch_count; b++) {
         const scene_material *material = &s->scene->materials[m->batches[b].material];

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gn_matrix.h"
 
 static void over_the_frame(stage *s, GLenum source, GLenum destination)
 {
@@ -36,15 +35,16 @@ void stage_show_volumes(stage *s)
 }
 
 /* The edges of one caster as the light sees it, as lines; returns how many. */
-static size_t collect_edges(stage *s, const gn_mesh *mesh, const double light[4])
+static size_t collect_edges(stage *s, const gn_object *object, const gn_light *light)
 {
+    const gn_mesh *mesh = object->mesh;
     const gn_mesh_info *info = gn_mesh_get_info(mesh);
     const size_t most = 3 * (size_t)info->triangle_count;
     gn_edge *edges = s->scratch;
     float *ends = (float *)(void *)(edges + most);
     size_t count = 0;
 
-    gn_casting(mesh, light, s->facing);
+    gn_object_casting(object, light, s->facing);
     if (gn_silhouette(mesh, s->facing, edges, most, &count) != GN_OK)
         return 0;
     for (size_t e = 0; e < count; e++) {
@@ -70,13 +70,11 @@ void stage_show_silhouettes(stage *s)
     for (uint32_t r = 0; r < s->plan->record_count; r++) {
         const gn_record *record = &s->plan->records[r];
         const gn_plan_object *object = &s->plan->objects[record->object];
-        double light[4];
         size_t count;
 
-        if (record->chunk != 0 ||
-            !gn_light_in_object(&s->lights[record->light], &s->objects[record->object], light))
+        if (record->chunk != 0)
             continue;
-        count = collect_edges(s, object->mesh, light);
+        count = collect_edges(s, &s->objects[record->object], &s->lights[record->light]);
         gl->glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), NULL);
         gl->glUniformMatrix4fv(p->clip, 1, GL_FALSE, object->matrix);
         gl->glUniform4fv(p->flat, 1, colors[record->light % 4]);
