@@ -15,7 +15,7 @@ ifeq ($(origin AR),default)
 AR := $(CROSS)ar
 endif
 
-B       := build/$(CROSS)$(VARIANT)
+B       := build/$(notdir $(CROSS))$(VARIANT)
 D       := $(DESTDIR)$(PREFIX)
 VERSION := $(shell awk '/define GN_VERSION_/ {printf dot $$3; dot = "."}' core/gnomon.h)
 
@@ -50,7 +50,11 @@ PUBLIC  := port/gn_port.h core/gnomon.h core/gn_matrix.h gles/gnomon_gles.h gles
 SCENES  := build/scenes/scenes.txt
 
 .DEFAULT_GOAL := all
-.PHONY: all deps demo test truth headers layers asan valgrind size install format clean help check-build
+ifeq ($($(VARIANT)),)
+$(error VARIANT is one of release debug asan size ($(VARIANT)))
+endif
+
+.PHONY: all deps demo test truth headers layers asan valgrind size install format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -66,9 +70,10 @@ test: $(TESTS) $(B)/tests/truth/truth_table $(B)/gnomon $(SCENES) headers layers
 truth: $(B)/gnomon $(B)/tests/truth/truth_table $(SCENES) ## masks of all test scenes against the ray-traced truth
 	@sh tests/truth/truth.sh $(B) $(TRUTH_ARGS)
 
-headers: ## each public header compiles alone, as C99 and as C++
+headers: ## each public header compiles alone, as C99 and, where there is a compiler for it, as C++
 	@for h in $(PUBLIC); do case $$h in *gl_funcs.h) continue;; esac; \
 	  $(CC) -x c -std=c99 -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -fsyntax-only $$h || exit 1; \
+	  echo | $(CC) -x c++ -fsyntax-only - 2>/dev/null || continue; \
 	  $(CC) -x c++ -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -fsyntax-only $$h || exit 1; done
 
 layers: $(B)/libgnomon.a ## arrows point down only; the library takes memory from its port alone and has no globals
@@ -77,7 +82,7 @@ layers: $(B)/libgnomon.a ## arrows point down only; the library takes memory fro
 	@! grep -nE '#include.*(gnomon|gni|scene)' platforms/*.[ch]
 	@! grep -nE '#include.*gni' tools/*.[ch] tools/*/*.[ch]
 	@! $(CROSS)nm -u $(filter-out %/port_libc.o,$(LIBRARY)) | grep -E ' U (e?gl[A-Z].*|malloc|calloc|realloc|free|fopen|printf)$$'
-	@[ $(VARIANT) = asan ] || $(CROSS)size -A $(LIBRARY) | awk '$$1 == ".data" || $$1 == ".bss" {n += $$2} END {exit n != 0}'
+	@[ $(VARIANT) = asan ] || $(CROSS)size -A $(LIBRARY) | awk '$$1 ~ /^\.(data|bss)(\.[^r]|$$)/ {n += $$2} END {exit n != 0}'
 
 check-build: all ## install into a scratch root and build a program against what is there
 	@sh tests/install.sh $(B) "$(CC)"
@@ -89,8 +94,8 @@ valgrind: $(TESTS) $(B)/gnomon $(SCENES) ## the tests that matter for memory und
 	@sh tests/valgrind.sh $(B)
 
 size: ## bytes per object of the library, built with -Os
-	@$(MAKE) --no-print-directory VARIANT=size build/$(CROSS)size/libgnomon.a
-	@$(CROSS)size -t build/$(CROSS)size/libgnomon.a
+	@$(MAKE) --no-print-directory VARIANT=size build/$(notdir $(CROSS))size/libgnomon.a
+	@$(CROSS)size -t build/$(notdir $(CROSS))size/libgnomon.a
 
 install: all ## library, headers, command and gnomon.pc under DESTDIR and PREFIX
 	install -d $(D)/include/gnomon $(D)/lib/pkgconfig $(D)/bin
@@ -121,7 +126,12 @@ $(B)/gnomon: $(B)/tools/main.o $(TOOLS) $(B)/libgnomon.a
 $(B)/tests/%: $(B)/tests/%.o $(SUPPORT) $(TOOLS) $(B)/libgnomon.a
 	@echo "  link  $@"
 	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TEST_LIBS) -o $@
-$(B)/%.o: %.c | $(SHADERS)
+# Objects are made anew when the compiler or its flags change.
+$(B)/flags: force
+	@mkdir -p $(@D)
+	@echo '$(CC) $(WERROR) $($(VARIANT)) $(CPPFLAGS) $(CFLAGS)' | cmp -s - $@ || \
+	  echo '$(CC) $(WERROR) $($(VARIANT)) $(CPPFLAGS) $(CFLAGS)' > $@
+$(B)/%.o: %.c $(B)/flags | $(SHADERS)
 	@mkdir -p $(@D)
 	@echo "  cc    $<"
 	$(Q)$(CC) $(FLAGS) -c $< -o $@

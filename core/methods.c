@@ -5,7 +5,7 @@
 
 static const gn_method_info methods[GN_METHOD_COUNT] = {
     {"auto", "the best exact method that the target can do", "what that method needs", 1},
-    {"zfail", "stencil, every caster by z-fail, closed volumes to infinity (Everitt 2002)",
+    {"zfail", "stencil, every caster by z-fail, closed volumes, to 255 layers (Everitt 2002)",
      "8 stencil bits, depth, two-sided stencil with wrapping", 1},
     {"zpass", "stencil, every caster by z-pass; wrong where a volume meets the near plane (Hoxley 2003)",
      "8 stencil bits, depth, two-sided stencil with wrapping", 0},

@@ -54,8 +54,10 @@ gn_result gn_gles_upload(gn_gles *g, const gn_mesh *mesh)
     uint32_t at;
     GLuint buffer = 0;
 
-    if (!g || !mesh || g->forgotten)
-        return GN_E_ARG;
+    if (!g || !mesh)
+        return gn_fail(g ? g->context : NULL, GN_E_ARG, "gn_gles_upload: NULL argument");
+    if (g->forgotten)
+        return gn_fail(g->context, GN_E_ARG, "gn_gles_upload: the GL context was lost");
     if (gni_find_upload(g, mesh))
         return GN_OK;
     gl = &g->gl;

@@ -15,7 +15,8 @@
  *
  * GL state. Between gn_gles_begin() and the end of the walk the host may change anything but the bound framebuffer.
  *
- *     on entry   the framebuffer that the plan's target describes is bound; no GL error is pending. Any other state
+ *     on entry   the framebuffer that the plan's target describes is bound; no GL error is pending; the depth range is 0 to 1, and
+ *                sample coverage and sample alpha to coverage are off, as in a new context. Any other state
  *     clear      the first gn_gles_next() clears colour (to the host's clear colour), depth and stencil, everything unmasked
  *     AMBIENT    depth test LESS, depth written; stencil test and blending off
  *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL 0, not written;

@@ -34,7 +34,7 @@ static const gni_state count[2][2] = {
 gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
 {
     if (!g || !plan)
-        return GN_E_ARG;
+        return gn_fail(g ? g->context : NULL, GN_E_ARG, "gn_gles_begin: NULL argument");
     if (g->forgotten)
         return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the GL context was lost");
     for (uint32_t i = 0; i < plan->record_count; i++)

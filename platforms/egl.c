@@ -16,6 +16,7 @@
     F(EGLBoolean, eglChooseConfig, (EGLDisplay, const EGLint *, EGLConfig *, EGLint, EGLint *))                                \
     F(EGLBoolean, eglGetConfigAttrib, (EGLDisplay, EGLConfig, EGLint, EGLint *))                                               \
     F(EGLSurface, eglCreatePbufferSurface, (EGLDisplay, EGLConfig, const EGLint *))                                            \
+    F(EGLBoolean, eglQuerySurface, (EGLDisplay, EGLSurface, EGLint, EGLint *))                                                 \
     F(EGLBoolean, eglDestroySurface, (EGLDisplay, EGLSurface))                                                                 \
     F(EGLContext, eglCreateContext, (EGLDisplay, EGLConfig, EGLContext, const EGLint *))                                       \
     F(EGLBoolean, eglDestroyContext, (EGLDisplay, EGLContext))                                                                 \
@@ -96,27 +97,41 @@ static EGLDisplay display_of(egl_platform *e, int way)
     return e->eglGetDisplay(EGL_DEFAULT_DISPLAY);
 }
 
+/* The config with the wanted bits, or with as many of them as there are: what a context lacks, its user says better. */
+static int choose_config(egl_platform *e, const platform_desc *d, EGLConfig *config)
+{
+    for (int less = 0; less < 5; less++) { /* without alpha; 16 bits of depth; no stencil; 565 and nothing else */
+        const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT,
+                                 EGL_RED_SIZE, less < 4 ? d->red_bits : 0, EGL_GREEN_SIZE, less < 4 ? d->green_bits : 0,
+                                 EGL_BLUE_SIZE, less < 4 ? d->blue_bits : 0, EGL_ALPHA_SIZE, less < 1 ? d->alpha_bits : 0,
+                                 EGL_DEPTH_SIZE, less < 2 || d->depth_bits < 16 ? d->depth_bits : less < 4 ? 16 : 0,
+                                 EGL_STENCIL_SIZE, less < 3 ? d->stencil_bits : 0, EGL_SAMPLES, 0, EGL_NONE};
+        EGLint count = 0;
+
+        if (e->eglChooseConfig(e->display, wanted, config, 1, &count) && count > 0)
+            return 1;
+    }
+    return 0;
+}
+
 /* Config, surface and context on an initialised display. Returns NULL or what failed. */
 static const char *make(egl_platform *e, const platform_desc *d)
 {
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT,
-                             EGL_RED_SIZE, d->red_bits, EGL_GREEN_SIZE, d->green_bits, EGL_BLUE_SIZE, d->blue_bits,
-                             EGL_ALPHA_SIZE, d->alpha_bits, EGL_DEPTH_SIZE, d->depth_bits,
-                             EGL_STENCIL_SIZE, d->stencil_bits, EGL_SAMPLES, 0, EGL_NONE};
     const EGLint size[] = {EGL_WIDTH, (EGLint)d->width, EGL_HEIGHT, (EGLint)d->height, EGL_NONE};
     const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
     const EGLint names[6] = {EGL_RED_SIZE, EGL_GREEN_SIZE, EGL_BLUE_SIZE, EGL_ALPHA_SIZE, EGL_DEPTH_SIZE, EGL_STENCIL_SIZE};
     int *const bits[6] = {&e->base.actual.red_bits, &e->base.actual.green_bits, &e->base.actual.blue_bits,
                           &e->base.actual.alpha_bits, &e->base.actual.depth_bits, &e->base.actual.stencil_bits};
     EGLConfig config;
-    EGLint count = 0;
+    EGLint width = 0, height = 0;
 
     if (!e->eglBindAPI(EGL_OPENGL_ES_API))
         return "it has no OpenGL ES";
-    if (!e->eglChooseConfig(e->display, wanted, &config, 1, &count) || count < 1)
-        return "it has no config with the wanted bits";
+    if (!choose_config(e, d, &config))
+        return "it has no config for OpenGL ES 2.0 with a pbuffer";
     e->surface = e->eglCreatePbufferSurface(e->display, config, size);
-    if (e->surface == EGL_NO_SURFACE)
+    if (e->surface == EGL_NO_SURFACE || !e->eglQuerySurface(e->display, e->surface, EGL_WIDTH, &width) ||
+        !e->eglQuerySurface(e->display, e->surface, EGL_HEIGHT, &height) || width != size[1] || height != size[3])
         return "it refuses a pbuffer of that size";
     e->context = e->eglCreateContext(e->display, config, EGL_NO_CONTEXT, version);
     if (e->context == EGL_NO_CONTEXT)
@@ -175,11 +190,13 @@ static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE
     e->display = EGL_NO_DISPLAY;
     for (int way = 0; way < 3; way++) {
         const EGLDisplay display = display_of(e, way);
+        EGLint error = EGL_SUCCESS;
 
         if (display == EGL_NO_DISPLAY) {
             failure = "there is none";
         } else if (!e->eglInitialize(display, NULL, NULL)) {
             failure = "it does not start";
+            error = e->eglGetError();
         } else {
             e->display = display;
             failure = make(e, desc);
@@ -187,11 +204,12 @@ static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE
                 e->base.detail = ways[way];
                 return &e->base;
             }
+            error = e->eglGetError(); /* before cleaning up calls EGL again */
             close_display(e);
         }
         if (length < PLATFORM_MESSAGE)
             length += (size_t)snprintf(message + length, PLATFORM_MESSAGE - length, "%s%s display: %s (0x%04x)",
-                                       length ? ", " : "", ways[way], failure, (unsigned)e->eglGetError());
+                                       length ? ", " : "", ways[way], failure, (unsigned)error);
     }
     destroy(&e->base);
     return NULL;

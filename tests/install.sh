@@ -5,7 +5,7 @@ set -e
 build=$1 cc=$2 root=$PWD/$1/installed
 case $build in *arm*|*aarch64*) exit 0 ;; esac
 rm -rf "$root"
-make -s --no-print-directory VARIANT="$(basename "$build")" DESTDIR="$root" PREFIX=/usr install > /dev/null
+${MAKE:-make} -s --no-print-directory VARIANT="$(basename "$build")" DESTDIR="$root" PREFIX=/usr install > /dev/null
 cat > "$build/installed.c" <<'C'
 #include <gn_matrix.h>
 #include <gnomon_gles.h>

@@ -47,7 +47,7 @@ static int help(const char *name)
 {
     int i;
 
-    if (!name) {
+    if (!name || strcmp(name, "help") == 0) {
         printf("usage: gnomon COMMAND [arguments]\n\nReal-time shadows in OpenGL ES 2.0.\n\n");
         for (i = 0; i < COMMANDS; i++)
             printf("  %-10s %s\n", commands[i].name, commands[i].summary);
@@ -62,7 +62,7 @@ static int help(const char *name)
     return EXIT_DONE;
 }
 
-int main(int count, char **arguments)
+static int run(int count, char **arguments)
 {
     int i;
 
@@ -83,4 +83,15 @@ int main(int count, char **arguments)
         if (strcmp(arguments[a], "--help") == 0)
             return help(arguments[1]);
     return commands[i].run(count - 2, arguments + 2);
+}
+
+int main(int count, char **arguments)
+{
+    const int status = run(count, arguments);
+
+    if (fflush(stdout) != 0 && status == EXIT_DONE) {
+        say("standard output: cannot be written");
+        return EXIT_FAILED;
+    }
+    return status;
 }

@@ -11,13 +11,16 @@
 
 void say(const char *format, ...)
 {
+    char line[2048];
     va_list args;
 
-    fputs("gnomon: ", stderr);
     va_start(args, format);
-    vfprintf(stderr, format, args);
+    vsnprintf(line, sizeof line, format, args);
     va_end(args);
-    fputc('\n', stderr);
+    for (char *c = line; *c; c++)
+        if ((unsigned char)*c < ' ') /* a name may hold a newline; a message is one line */
+            *c = '?';
+    fprintf(stderr, "gnomon: %s\n", line);
 }
 
 void say_line(const char *line)

@@ -234,6 +234,10 @@ static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE
         if (!write_report(j->report, s, m))
             return EXIT_FAILED;
     }
+    if (s->shader_refused) {
+        say("the GL refuses a shader: surfaces are missing");
+        return EXIT_FAILED;
+    }
     if (s->gl->glGetError() != GL_NO_ERROR) {
         say("the GL reports an error");
         return EXIT_FAILED;

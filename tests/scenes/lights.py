@@ -173,6 +173,18 @@ def ortho_container(s):
     s.flat_eye((1.2, 7.0, 4.5), (0.0, 0.4, -0.1), 2.6, 0.1, 16.0)
 
 
+@scene("zpass", "small", "the near rectangle is above the casters and the lamp")
+def ortho_wide(s):
+    """Orthographic over a floor a hundred times as wide as what is seen, with a lamp just above it:
+    where the floor's own volume ends decides how much depth is left for everything else."""
+    s.ground(500.0)
+    s.block_at(cube(0.8), RED, (0.9, 0.4, 0.2), 30.0)
+    s.block_at(block((-0.2, 0.0, -0.2), (0.2, 1.8, 0.2)), BLUE, (-1.2, 0.0, 0.6), 15.0)
+    s.lamp((0.1, 0.02, 1.3), 1.5)
+    s.lamp((-0.6, 1.4, -1.2), 4.0, (0.6, 0.75, 1.0))
+    s.flat_eye((2.5, 5.0, 5.0), (0.0, 0.4, 0.2), 2.2, 0.1, 40.0)
+
+
 @scene("zpass", "small", "the eye is above the shadows")
 def zfar(s):
     """A far plane that cuts the floor and a wall: what is beyond is not seen, but its shadows come

@@ -7,7 +7,7 @@ import struct
 from gltf import FAN, FLOAT, STRIP, UBYTE, UINT, VERTICES, pack, png
 from shapes import Shape, blob, block, cube, floor, knot_tube, quad, rounded, smooth, sphere
 from space import after, turn_x, turn_y, turn_z
-from stage import BLUE, GREEN, OCHRE, RED, SLATE, STONE, WHITE, scene
+from stage import BLUE, GREEN, OCHRE, RED, SAND, SLATE, STONE, WHITE, scene
 
 
 @scene("zpass", "large", "the eye is above the shadows")
@@ -121,6 +121,34 @@ def soup(s):
     s.lamp((-0.4, 3.6, 2.6), 34.0, (1.0, 0.92, 0.8))
     s.sun((0.9, 1.3, 0.3), 0.8, (0.6, 0.75, 1.0))
     s.eye((0.2, 3.2, 5.4), (0.1, 0.4, 0.2), 42.0)
+
+
+@scene("zpass", "large", "the eye is above the shadows")
+def flattened(s):
+    """Transforms without inverse: a floor that is a cube of no height, a cube flattened into a
+    plate and one flattened into a wall. They are seen, lit and cast like any sheet. Not for
+    softpipe, which draws a cube's flattened sides as slivers with depths of their own."""
+    s.thing(cube(2.0), s.material(SAND, 0.95), scale=(4.0, 0.0, 4.0))
+    s.thing(cube(1.4), s.material(RED), at=(-0.9, 1.1, 0.2), turn=turn_z(20.0), scale=(1.0, 0.0, 1.0))
+    s.thing(cube(1.4), s.material(BLUE), at=(1.2, 0.75, -0.3), turn=turn_y(35.0),
+            scale=(0.0, 1.0, 1.0))
+    s.lamp((0.4, 3.2, 1.6), 24.0)
+    s.sun((-0.7, 1.0, 0.5), 0.8, (0.6, 0.75, 1.0))
+    s.eye((1.2, 3.2, 5.2), (0.0, 0.4, 0.0), 45.0)
+
+
+@scene("zpass", "small", "the eye is above the shadows")
+def many_lights(s):
+    """Seven lights, and a pane of glass that is a mesh by itself: no triangle of it is solid."""
+    s.ground(4.0)
+    s.block_at(cube(0.9), WHITE, (-0.6, 0.45, 0.1), 25.0)
+    pane = quad((0.4, 0.1, 0.9), (1.6, 0.1, 0.4), (1.6, 1.3, 0.4), (0.4, 1.3, 0.9))
+    s.thing(pane, s.material((0.3, 0.6, 0.7, 0.4), both=True, alpha="BLEND"))
+    for i in range(7):
+        angle = 2.0 * math.pi * i / 7.0
+        color = tuple(0.5 + 0.5 * math.cos(angle - 2.0 * math.pi * k / 3.0) for k in range(3))
+        s.lamp((2.6 * math.cos(angle), 1.6 + 0.2 * i, 2.6 * math.sin(angle)), 4.0, color)
+    s.eye((0.6, 3.0, 4.8), (0.0, 0.3, 0.0), 42.0)
 
 
 @scene("zpass", "small", "the eye is above the shadows at every time")

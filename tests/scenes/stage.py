@@ -26,7 +26,7 @@ def scene(zpass, size, why):
 
     zpass "zpass" where no shadow volume meets the near plane's rectangle, so that counting from
           the eye (z-pass) is right; "nozpass" where one does, and z-pass must go wrong
-    size  "small" where a slow software rasteriser gets through it: few triangles, few layers
+    size  "small" where softpipe gets through it: few triangles, few layers
     why   the reason for the first, in one line
     """
     def register(function):

@@ -7,7 +7,7 @@
  *
  * A rasteriser that draws a shared edge twice, or not at all, at some pixel cannot count volumes there (Everitt 2002, section
  * 3.1, asks for watertight rasterisation). softpipe is such: where its number of fragments at a wrong pixel is not llvmpipe's,
- * the pixel stands under "cracks" and not under "wrong".
+ * the pixel stands under "cracks" and not under "wrong", as long as there are no more of them than one in 10,000.
  *
  * The truth of a light is traced once; then each driver draws in a process of its own, since Mesa picks its rasteriser once a
  * process, into memory that all share. Fails when a certain pixel is wrong where the method must be right, when fewer than 80 %
@@ -23,7 +23,7 @@
 #include "stage.h"
 #include "truth.h"
 
-#define MOST_LIGHTS 16
+#define MOST_LIGHTS 24
 
 typedef struct driver {
     const char *name, *platform, *gallium;
@@ -146,6 +146,10 @@ static int compare(const job *j, int d, int m, size_t light)
             printf("  pixel %lu, %lu: %s%s drawn\n", (unsigned long)(i % j->width), (unsigned long)(i / j->width),
                    mask[i] & 1 ? "lit" : "shadowed", mask[i] & 2 ? "" : ", nothing");
     }
+    if (cracks > n / 10000) { /* a few lie on edges; more are something else */
+        wrong += cracks;
+        cracks = 0;
+    }
     few = certain * 10 < n * 8;
     printf("%-18s %-9s %-6s %5lu %8.2f%% %7lu %7lu %7lu%s%s\n", j->name, drivers[d].name, gn_method_describe(methods[m])->name,
            (unsigned long)light, 100.0 * (double)certain / (double)n, (unsigned long)depth_limited, (unsigned long)wrong,
@@ -164,6 +168,8 @@ static int run(job *j, const char *dir, const char *wanted_drivers)
     snprintf(path, sizeof path, "%s/%s.gltf", dir, j->name);
     if (!scene_load(&loaded, path, NULL, message) ||
         !scene_ensure_view(&loaded, (double)j->width / (double)j->height, NULL) || loaded.light_count > MOST_LIGHTS) {
+        if (!message[0])
+            snprintf(message, sizeof message, "%lu lights, at most %d", (unsigned long)loaded.light_count, MOST_LIGHTS);
         printf("%-18s cannot be loaded: %s\n", j->name, message);
         return 1;
     }

@@ -56,6 +56,7 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
     stage *s = calloc(1, sizeof *s);
     gn_port port = gn_port_libc();
     char why[PLATFORM_MESSAGE];
+    GLint vectors = 0;
 
     *out = NULL;
     if (!s) {
@@ -84,6 +85,9 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
     }
     s->gl = gn_gles_functions(s->gles);
     s->target = gn_gles_describe_target(s->gles, options->width, options->height);
+    /* ten vectors for the material, four for each light; 16 are guaranteed */
+    s->gl->glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_VECTORS, &vectors);
+    s->shader_lights = vectors < 10 + 2 * 4 ? 1 : vectors < 10 + STAGE_LIGHTS * 4 ? 2 : STAGE_LIGHTS;
     if (!stage_upload(s, message))
         return refuse(out, s, 1);
     *out = s;
@@ -136,7 +140,7 @@ static void pose_light(stage *s, size_t index, double degrees)
         to->axis[i] = (float)-to->towards[i];
     }
     to->shader_position[3] = is_sun ? 0.0f : 1.0f;
-    to->axis[3] = from->range > 0.0 ? (float)(1.0 / (from->range * from->range * from->range * from->range)) : 0.0f;
+    to->axis[3] = from->range > 0.0 ? (float)(1.0 / from->range) : 0.0f;
     to->cone[0] = 0.0f;
     to->cone[1] = 1.0f;
     if (from->kind == SCENE_SPOT) {

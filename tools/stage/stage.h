@@ -8,7 +8,7 @@
 #include "platform.h"
 #include "scene.h"
 
-#define STAGE_LIGHTS 4 /* lights in one shader; more are added in further passes */
+#define STAGE_LIGHTS 4 /* lights in one shader at most; more are added in further passes */
 
 typedef struct stage_program {
     GLuint name; /* 0: not made yet */
@@ -59,6 +59,8 @@ typedef struct stage {
     stage_light *shading;
     double centre[3]; /* of the scene at its start */
     double exposure;
+    uint32_t shader_lights; /* lights in one shader here: as many as the GL has uniforms for */
+    int shader_refused;     /* a surface was left out because the GL refuses its shader */
     void *plan_memory;
     size_t plan_size;
     const gn_plan *plan;

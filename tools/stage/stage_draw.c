@@ -156,8 +156,10 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
         if ((material->alpha == SCENE_BLEND) != (pass == STAGE_PASS_BLEND))
             continue;
         p = stage_use(s, kind);
-        if (!p)
+        if (!p) {
+            s->shader_refused = 1;
             continue;
+        }
         set_material(s, p, material, look);
         set_object(s, p, instance, object);
         if (!look->flat && look->light_count)
@@ -166,7 +168,6 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
     }
 }
 
-/* Transparent objects from far to near, by their centres. */
 static double distance_of(const stage *s, size_t index)
 {
     const scene_instance *instance = &s->scene->instances[index];
@@ -175,29 +176,59 @@ static double distance_of(const stage *s, size_t index)
     return (m[12] - eye[0]) * (m[12] - eye[0]) + (m[13] - eye[1]) * (m[13] - eye[1]) + (m[14] - eye[2]) * (m[14] - eye[2]);
 }
 
+static int is_blended(const stage *s, size_t index)
+{
+    const scene_mesh *m = &s->scene->meshes[s->scene->instances[index].mesh];
+
+    return m->solid_triangle_count < m->triangle_count;
+}
+
+/* The transparent object that comes after `last` from far to near (equal ones in order); count when there is none. */
+static size_t next_blended(const stage *s, size_t last)
+{
+    const size_t count = s->scene->instance_count;
+    const double before = last < count ? distance_of(s, last) : INFINITY;
+    size_t next = count;
+
+    for (size_t i = 0; i < count; i++) {
+        double d;
+
+        if (!is_blended(s, i))
+            continue;
+        d = distance_of(s, i);
+        if ((d < before || (last < count && d == before && i > last)) && (next == count || d > distance_of(s, next)))
+            next = i;
+    }
+    return next;
+}
+
+/* Transparent objects from far to near, by their origins; each with all its lights before the next. */
+static void draw_blended(stage *s, const stage_look *look)
+{
+    const size_t count = s->scene->instance_count;
+    const uint32_t end = look->first_light + look->light_count;
+
+    for (size_t i = next_blended(s, count); i < count; i = next_blended(s, i)) {
+        stage_look group = *look;
+
+        s->gl->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+        do {
+            group.light_count = end - group.first_light < s->shader_lights ? end - group.first_light : s->shader_lights;
+            draw_object(s, i, STAGE_PASS_BLEND, &group);
+            s->gl->glBlendFunc(GL_SRC_ALPHA, GL_ONE);
+            group.ambient = 0;
+            group.first_light += group.light_count;
+        } while (group.first_light < end);
+    }
+    s->gl->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
 void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look)
 {
     const size_t count = s->scene->instance_count;
 
     if (pass == STAGE_PASS_BLEND) {
-        double before = INFINITY; /* the ones drawn so far are at least as far; equal ones go in order */
-        size_t drawn = count;
-
-        for (size_t step = 0; step < count; step++) {
-            size_t next = count;
-
-            for (size_t i = 0; i < count; i++) {
-                const double d = distance_of(s, i);
-
-                if ((d < before || (d == before && drawn < count && i > drawn)) && (next == count || d > distance_of(s, next)))
-                    next = i;
-            }
-            if (next == count)
-                break;
-            draw_object(s, next, pass, look);
-            before = distance_of(s, next);
-            drawn = next;
-        }
+        draw_blended(s, look);
         return;
     }
     for (size_t i = 0; i < count; i++)

@@ -16,7 +16,7 @@ static int begin(stage *s, char message[SCENE_MESSAGE])
 /* Everything transparent, lit by all lights without shadows: it casts none, and masks are of what is behind it. */
 static void draw_blended(stage *s, uint32_t first_light, uint32_t light_count)
 {
-    const stage_look look = {1, first_light, light_count < STAGE_LIGHTS ? light_count : STAGE_LIGHTS, NULL, -1, -1};
+    const stage_look look = {1, first_light, light_count, NULL, -1, -1};
 
     stage_draw_objects(s, STAGE_PASS_BLEND, &look);
 }
@@ -89,7 +89,8 @@ void stage_draw_plain(stage *s)
 {
     const gn_gl *gl = s->gl;
     const uint32_t count = s->plan->light_count;
-    stage_look look = {1, 0, count < STAGE_LIGHTS ? count : STAGE_LIGHTS, NULL, -1, -1};
+    const uint32_t group = s->shader_lights;
+    stage_look look = {1, 0, count < group ? count : group, NULL, -1, -1};
 
     gl->glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     gl->glClearDepthf((GLfloat)s->plan->clear_depth);
@@ -102,8 +103,8 @@ void stage_draw_plain(stage *s)
     gl->glEnable(GL_BLEND);
     gl->glBlendFunc(GL_ONE, GL_ONE);
     gl->glDepthFunc(GL_EQUAL);
-    for (look.ambient = 0, look.first_light = STAGE_LIGHTS; look.first_light < count; look.first_light += STAGE_LIGHTS) {
-        look.light_count = count - look.first_light < STAGE_LIGHTS ? count - look.first_light : STAGE_LIGHTS;
+    for (look.ambient = 0, look.first_light = group; look.first_light < count; look.first_light += group) {
+        look.light_count = count - look.first_light < group ? count - look.first_light : group;
         stage_draw_objects(s, STAGE_PASS_SOLID, &look);
     }
     gl->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);

@@ -27,7 +27,7 @@ uniform sampler2D u_texture;
 #if LIGHTS
 uniform vec4 u_light_position[LIGHTS]; // from the eye; w = 0: a direction towards the light
 uniform vec3 u_light_color[LIGHTS];
-uniform vec4 u_light_axis[LIGHTS];     // of the cone, from the light outward; w: 1 / range^4, 0 without
+uniform vec4 u_light_axis[LIGHTS];     // of the cone, from the light outward; w: 1 / range, 0 without
 uniform vec2 u_light_cone[LIGHTS];     // scale and offset of the cosine; 0, 1 without a cone
 #endif
 varying vec3 v_position;
@@ -57,12 +57,13 @@ void main()
         n = -n;
     for (int i = 0; i < LIGHTS; i++) {
         vec3 to_light = u_light_position[i].xyz - v_position * u_light_position[i].w;
-        float square = dot(to_light, to_light);
-        vec3 l = to_light * inversesqrt(square);
+        float distance = length(to_light);
+        float reach = distance * u_light_axis[i].w; // of the range; its fourth power only where it cannot overflow
+        vec3 l = to_light / max(distance, 0.0001);
         float facing = dot(n, l);
         float falloff = 1.0;
         if (u_light_position[i].w > 0.5)
-            falloff = clamp(1.0 - square * square * u_light_axis[i].w, 0.0, 1.0) / max(square, 0.0001);
+            falloff = reach < 1.0 ? (1.0 - reach * reach * reach * reach) / max(distance * distance, 0.0001) : 0.0;
         float cone = clamp(dot(-l, u_light_axis[i].xyz) * u_light_cone[i].x + u_light_cone[i].y, 0.0, 1.0);
         float shine = pow(max(dot(n, normalize(l + v)), 0.0), u_shininess) * (u_shininess + 8.0) * 0.125;
         vec3 reflected = base.rgb * (1.0 - u_metallic) + mix(vec3(0.04), base.rgb, u_metallic) * u_specular * shine;

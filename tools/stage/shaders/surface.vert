@@ -15,7 +15,7 @@ void main()
 {
     gl_Position = gn_position(u_clip, a_position);
     v_position = (u_world * vec4(a_position, 1.0)).xyz;
-    v_normal = u_normal * a_normal;
+    v_normal = normalize(u_normal * a_normal); // of any scale; fragments may be half floats
     v_uv = a_uv;
     v_color = a_color;
 }
