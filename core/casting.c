@@ -148,8 +148,19 @@ void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *c
 {
     double at[4];
 
-    if (light_in_object(light, object, at))
+    if (light_in_object(light, object, at)) {
         gn_casting(object->mesh, at, casting);
-    else
-        facing_flattened(object, light, casting);
+        return;
+    }
+    facing_flattened(object, light, casting);
+    for (uint32_t p = 0; p < object->mesh->info.part_count; p++) {
+        const gni_part *part = &object->mesh->parts[p];
+
+        /* a flattened solid has two sheets in one place: the lit one is enough, and it is the one that is seen as lit */
+        for (uint32_t i = 0; part->outward && i < part->triangle_count; i++) {
+            int8_t *c = &casting[object->mesh->part_triangles[part->first_triangle + i]];
+
+            *c = *c == part->outward ? *c : 0;
+        }
+    }
 }

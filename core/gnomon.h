@@ -177,7 +177,7 @@ typedef struct gn_object {
 } gn_object;
 
 /* gn_facing() and gn_casting() for an object in the world: [triangle_count]. A model matrix without inverse, which flattens the
- * object, is lawful: then fronts are those of the flattened triangles, and every one of them casts. */
+ * object, is lawful: fronts are then those of the flattened triangles; lit ones cast in solid parts, all in others. */
 void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *facing);
 void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *casting);
 

@@ -8,6 +8,7 @@
  * Meshes lie on a grid of whole numbers, and so do many of the lights: lights on vertices, on edges and in the planes of
  * triangles are common, and double precision decides them exactly. */
 #include "gn_test.h"
+#include "gn_matrix.h"
 #include "gni.h"
 
 #include <math.h>
@@ -15,6 +16,7 @@
 #include <string.h>
 
 #define TRIALS 100000
+#define ENDED_TRIALS 10000
 #define POINTS 4
 #define MOST 512 /* triangles of a mesh here */
 
@@ -315,10 +317,130 @@ static void both_laws_hold(void **state)
     assert_true(solid > TRIALS / 4);
 }
 
+/* The image of a volume's vertex in clip space, which for an orthographic camera is an affine image of the world. */
+static void clip_position(const gn_plan *plan, const gn_record *r, uint16_t index, double out[3])
+{
+    const gn_mesh_info *info = gn_mesh_get_info(plan->objects[r->object].mesh);
+    const gn_chunk *chunk = &info->chunks[r->chunk];
+    const float *p = info->positions + 3 * (size_t)info->chunk_vertices[chunk->first_vertex + index / 2];
+    const float *m = index % 2 ? r->far_matrix : plan->objects[r->object].matrix;
+    double h[4];
+
+    for (int row = 0; row < 4; row++)
+        h[row] = (double)m[row] * (double)p[0] + (double)m[4 + row] * (double)p[1] + (double)m[8 + row] * (double)p[2] +
+                 (double)m[12 + row];
+    for (int row = 0; row < 3; row++)
+        out[row] = h[row] / h[3];
+}
+
+static double plan_angle(const gn_plan *plan, const double point[3])
+{
+    double angle = 0.0;
+
+    for (uint32_t n = 0; n < plan->record_count; n++) {
+        const gn_record *r = &plan->records[n];
+        const uint32_t upright = r->side_count + r->dark_cap_count + r->light_cap_count;
+
+        for (uint32_t i = 0; i < upright + r->turned_cap_count; i += 3) {
+            double v[3][3];
+
+            for (uint32_t k = 0; k < 3; k++) {
+                clip_position(plan, r, plan->indices[r->first_index + i + k], v[k]);
+                for (int axis = 0; axis < 3; axis++)
+                    v[k][axis] -= point[axis];
+            }
+            angle += (i < upright ? 1.0 : -1.0) * solid_angle(v);
+        }
+    }
+    return angle;
+}
+
+/* The shadow law for volumes that end on planes: at random points of what an orthographic camera sees, the volumes of a plan wind
+ * around the point exactly where the light is blocked. */
+static void ended_volumes_shadow_what_is_seen(void **state)
+{
+    static const double eye[3] = {0, 0, 0}, one[3] = {1, 1, 1};
+    gn_context *context;
+    uint32_t sure = 0, shadowed = 0, several = 0;
+
+    (void)state;
+    assert_int_equal(gn_context_create(NULL, &context), GN_OK);
+    for (uint32_t trial = 1; trial <= ENDED_TRIALS; trial++) {
+        gn_object object;
+        gn_light light = {GN_LIGHT_POINT, {0, 0, 0}, {0, 0, 0}};
+        gn_scene scene;
+        gn_mesh_desc desc;
+        gn_mesh *mesh;
+        const gn_plan *plan;
+        double at[4], q[4];
+        void *memory;
+
+        rng = trial * 2246822519u | 1u;
+        make_soup();
+        desc = test_desc(&soup);
+        assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_OK);
+        make_light(mesh, at);
+        memset(&object, 0, sizeof object);
+        memset(&scene, 0, sizeof scene);
+        object.mesh = mesh;
+        gn_mat4_identity(object.model);
+        object.flags = GN_CASTS | GN_RECEIVES;
+        for (int axis = 0; axis < 3; axis++)
+            light.position[axis] = light.towards[axis] = at[axis] + (double)mesh->info.centre[axis];
+        if (at[3] == 0.0) {
+            light.kind = GN_LIGHT_DIRECTIONAL;
+            memcpy(light.towards, at, sizeof light.towards);
+        }
+        for (int k = 0; k < 4; k++)
+            q[k] = test_uniform(&rng, -1, 1);
+        gn_mat4_from_trs(scene.camera.world, eye, q, one);
+        scene.camera.orthographic = 1;
+        scene.camera.left = scene.camera.bottom = -5;
+        scene.camera.right = scene.camera.top = 5;
+        scene.camera.znear = -20;
+        scene.lights = &light;
+        scene.objects = &object;
+        scene.light_count = scene.object_count = 1;
+        scene.target = (gn_target){64, 64, 8, 8, 8, 8, 24, 8, 0};
+        memory = malloc(gn_plan_bound(&scene));
+        assert_int_equal(gn_plan_make(context, &scene, memory, gn_plan_bound(&scene), &plan), GN_OK);
+        assert_int_equal(plan->endless_casters, 0);
+        several += plan->record_count > 1;
+        for (int i = 0; i < POINTS; i++) {
+            double point[3], clip[3];
+            const float *m = plan->objects[0].matrix;
+            int blocked, winding, seen = 1;
+
+            for (int axis = 0; axis < 3; axis++)
+                point[axis] = test_uniform(&rng, (double)mesh->info.box_min[axis], (double)mesh->info.box_max[axis]);
+            for (int row = 0; row < 3; row++) {
+                clip[row] = (double)m[row] * point[0] + (double)m[4 + row] * point[1] + (double)m[8 + row] * point[2] +
+                            (double)m[12 + row];
+                seen &= fabs(clip[row]) < 1.0;
+            }
+            blocked = blockers(mesh, at, point);
+            if (blocked < 0 || !seen)
+                continue;
+            winding = (int)lrint(plan_angle(plan, clip) / (4.0 * 3.14159265358979323846));
+            if ((winding != 0) != (blocked != 0))
+                fail_msg("trial %u: %d triangles block the light, the ended volumes wind %d times", trial, blocked, winding);
+            sure++;
+            shadowed += blocked != 0;
+        }
+        free(memory);
+        gn_mesh_destroy(mesh);
+    }
+    gn_context_destroy(context);
+    assert_true(sure > ENDED_TRIALS * POINTS / 2);
+    assert_true(shadowed > sure / 20);
+    assert_true(several > ENDED_TRIALS / 20); /* casters that one plane does not end are among them */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(both_laws_hold),
+        cmocka_unit_test(ended_volumes_shadow_what_is_seen),
     };
 
     return cmocka_run_group_tests_name("laws", tests, NULL, NULL);

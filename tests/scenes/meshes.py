@@ -123,11 +123,11 @@ def soup(s):
     s.eye((0.2, 3.2, 5.4), (0.1, 0.4, 0.2), 42.0)
 
 
-@scene("zpass", "large", "the eye is above the shadows")
+@scene("zpass", "small", "the eye is above the shadows")
 def flattened(s):
     """Transforms without inverse: a floor that is a cube of no height, a cube flattened into a
-    plate and one flattened into a wall. They are seen, lit and cast like any sheet. Not for
-    softpipe, which draws a cube's flattened sides as slivers with depths of their own."""
+    plate and one flattened into a wall. They are seen, lit and cast like any sheet,
+    though two sheets lie in one place."""
     s.thing(cube(2.0), s.material(SAND, 0.95), scale=(4.0, 0.0, 4.0))
     s.thing(cube(1.4), s.material(RED), at=(-0.9, 1.1, 0.2), turn=turn_z(20.0), scale=(1.0, 0.0, 1.0))
     s.thing(cube(1.4), s.material(BLUE), at=(1.2, 0.75, -0.3), turn=turn_y(35.0),
