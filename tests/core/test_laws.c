@@ -355,17 +355,30 @@ static double plan_angle(const gn_plan *plan, const double point[3])
     return angle;
 }
 
+static int is_askew(const double plane[4], const double world[16])
+{
+    double most = 0.0;
+
+    for (int axis = 0; axis < 3; axis++) {
+        const double *a = world + 4 * axis;
+
+        most = fmax(most, fmax(fabs(plane[axis]), fabs(a[0] * plane[0] + a[1] * plane[1] + a[2] * plane[2])));
+    }
+    return most < 0.9999;
+}
+
 /* The shadow law for volumes that end on planes: at random points of what an orthographic camera sees, the volumes of a plan wind
  * around the point exactly where the light is blocked. */
 static void ended_volumes_shadow_what_is_seen(void **state)
 {
     static const double eye[3] = {0, 0, 0}, one[3] = {1, 1, 1};
     gn_context *context;
-    uint32_t sure = 0, shadowed = 0, several = 0;
+    uint32_t sure = 0, shadowed = 0, several = 0, own = 0;
 
     (void)state;
     assert_int_equal(gn_context_create(NULL, &context), GN_OK);
     for (uint32_t trial = 1; trial <= ENDED_TRIALS; trial++) {
+        const int large = trial % 2 == 0; /* triangles larger than what is seen, the light close to them */
         gn_object object;
         gn_light light = {GN_LIGHT_POINT, {0, 0, 0}, {0, 0, 0}};
         gn_scene scene;
@@ -377,6 +390,8 @@ static void ended_volumes_shadow_what_is_seen(void **state)
 
         rng = trial * 2246822519u | 1u;
         make_soup();
+        for (size_t i = 0; large && i < 3 * soup.vertex_count; i++)
+            soup.positions[i] *= 8.0f;
         desc = test_desc(&soup);
         assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_OK);
         make_light(mesh, at);
@@ -406,17 +421,21 @@ static void ended_volumes_shadow_what_is_seen(void **state)
         assert_int_equal(gn_plan_make(context, &scene, memory, gn_plan_bound(&scene), &plan), GN_OK);
         assert_int_equal(plan->endless_casters, 0);
         several += plan->record_count > 1;
+        for (uint32_t n = 0; n < plan->record_count; n++) /* a plane along no axis of the view or of the world */
+            own += (uint32_t)is_askew(plan->records[n].end_plane, scene.camera.world);
         for (int i = 0; i < POINTS; i++) {
             double point[3], clip[3];
             const float *m = plan->objects[0].matrix;
             int blocked, winding, seen = 1;
 
             for (int axis = 0; axis < 3; axis++)
-                point[axis] = test_uniform(&rng, (double)mesh->info.box_min[axis], (double)mesh->info.box_max[axis]);
+                point[axis] = test_uniform(&rng, large ? -4.0 : (double)mesh->info.box_min[axis],
+                                           large ? 4.0 : (double)mesh->info.box_max[axis]);
             for (int row = 0; row < 3; row++) {
                 clip[row] = (double)m[row] * point[0] + (double)m[4 + row] * point[1] + (double)m[8 + row] * point[2] +
                             (double)m[12 + row];
-                seen &= fabs(clip[row]) < 1.0;
+                seen &= fabs(clip[row]) < 1.0 && point[row] >= (double)mesh->info.box_min[row] &&
+                        point[row] <= (double)mesh->info.box_max[row];
             }
             blocked = blockers(mesh, at, point);
             if (blocked < 0 || !seen)
@@ -433,7 +452,8 @@ static void ended_volumes_shadow_what_is_seen(void **state)
     gn_context_destroy(context);
     assert_true(sure > ENDED_TRIALS * POINTS / 2);
     assert_true(shadowed > sure / 20);
-    assert_true(several > ENDED_TRIALS / 20); /* casters that one plane does not end are among them */
+    assert_true(several > ENDED_TRIALS / 20); /* casters that one plane does not end are among them, */
+    assert_true(own > ENDED_TRIALS / 100);    /* and triangles that need a plane of their own */
 }
 
 int main(void)
