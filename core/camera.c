@@ -1,10 +1,11 @@
 /* camera.c - from world to clip space.
  *
- * A perspective camera's far plane is always at infinity, without any epsilon (Everitt 2002, section 3.2.1): rows z and w of
- * the projection differ only in their last column, so that a vertex at infinity gets z = w exactly and is not clipped. A
- * camera's zfar is honoured by the depth to which the buffer is cleared. An orthographic camera spans a finite range. */
-#include "gni.h"
+ * A perspective camera's far plane is always at infinity, without any epsilon (Everitt 2002, section 3.2.1): rows z
+ * and w of the projection differ only in their last column, so that a vertex at infinity gets z = w exactly and is
+ * not clipped. A camera's zfar is honoured by the depth to which the buffer is cleared. An orthographic camera spans
+ * a finite range. */
 #include "gn_matrix.h"
+#include "gni.h"
 
 #include <math.h>
 
@@ -20,7 +21,7 @@ gn_result gni_check_camera(gn_context *context, const gn_camera *camera)
             return gn_fail(context, GN_E_ARG, "camera: an edge or a distance is %g", lengths[i]);
     if (camera->left >= camera->right || camera->bottom >= camera->top)
         return gn_fail(context, GN_E_ARG, "camera: image from %g to %g by %g to %g has no area", camera->left,
-                        camera->right, camera->bottom, camera->top);
+                       camera->right, camera->bottom, camera->top);
     if (!camera->orthographic && camera->znear <= 0.0)
         return gn_fail(context, GN_E_ARG, "camera: znear %g is not in front of the eye", camera->znear);
     if (camera->zfar != 0.0 && camera->zfar <= camera->znear)

@@ -1,14 +1,14 @@
 /* casting.c - which triangles look at the light, and which of them cast.
  *
- * Facing is decided once per triangle by the sign of one expression in double, and every part of a volume follows that one
- * bit: whatever rounding does to the bit, the volume stays a closed chain (DESIGN.md, decision 1).
+ * Facing is decided once per triangle by the sign of one expression in double, and every part of a volume follows that
+ * one bit: whatever rounding does to the bit, the volume stays a closed chain (DESIGN.md, decision 1).
  *
- * Casting follows DESIGN.md, decision 2. Whether a light is inside a solid part is asked only when it is within the part's
- * box, by the solid angle that the part fills as the light sees it; in doubt (the light on the surface) every triangle casts,
- * which is always right.
+ * Casting follows DESIGN.md, decision 2. Whether a light is inside a solid part is asked only when it is within the
+ * part's box, by the solid angle that the part fills as the light sees it; in doubt (the light on the surface) every
+ * triangle casts, which is always right.
  *
- * Solid angle of a triangle: van Oosterom and Strackee, The Solid Angle of a Plane Triangle, IEEE Transactions on Biomedical
- * Engineering 30(2), 1983. */
+ * Solid angle of a triangle: van Oosterom and Strackee, The Solid Angle of a Plane Triangle, IEEE Transactions on
+ * Biomedical Engineering 30(2), 1983. */
 #include "gn_matrix.h"
 #include "gni.h"
 
@@ -88,7 +88,8 @@ void gn_casting(const gn_mesh *mesh, const double light[4], int8_t *casting)
     }
 }
 
-/* The light in the space of an object's mesh, less its centre: independent of the camera. 0 when the matrix is singular. */
+/* The light in the space of an object's mesh, less its centre: independent of the camera. 0 when the matrix is
+ * singular. */
 static int light_in_object(const gn_light *light, const gn_object *object, double out[4])
 {
     const float *centre = object->mesh->info.centre;
@@ -156,7 +157,8 @@ void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *c
     for (uint32_t p = 0; p < object->mesh->info.part_count; p++) {
         const gni_part *part = &object->mesh->parts[p];
 
-        /* a flattened solid has two sheets in one place: the lit one is enough, and it is the one that is seen as lit */
+        /* a flattened solid has two sheets in one place: the lit one is enough, and it is the one that is seen as
+         * lit */
         for (uint32_t i = 0; part->outward && i < part->triangle_count; i++) {
             int8_t *c = &casting[object->mesh->part_triangles[part->first_triangle + i]];
 

@@ -1,8 +1,9 @@
 /* chunks.c - cuts a mesh so that 16-bit indices reach all of it.
  *
- * Triangles are taken in order until the next one would bring a chunk past GN_CHUNK_VERTICES distinct vertices. A vertex
- * that several chunks need is in each of them, and an edge belongs to the chunk of its first use, which has both its
- * vertices: so every index of a volume's chunk is local, and the chunks together draw the same triangles as one would. */
+ * Triangles are taken in order until the next one would bring a chunk past GN_CHUNK_VERTICES distinct vertices. A
+ * vertex that several chunks need is in each of them, and an edge belongs to the chunk of its first use, which has
+ * both its vertices: so every index of a volume's chunk is local, and the chunks together draw the same triangles as
+ * one would. */
 #include "gni.h"
 
 #include <string.h>
@@ -134,6 +135,6 @@ gn_result gni_make_chunks(gn_mesh *mesh)
     gni_free(context, local);
     if (result == GN_E_MEMORY)
         return gn_fail(context, result, "mesh: no memory for the chunks of %lu vertices",
-                        (unsigned long)info->vertex_count);
+                       (unsigned long)info->vertex_count);
     return result;
 }

@@ -9,7 +9,7 @@
 
 #define HEADER 16u /* bytes in front of a block; keeps the alignment that the port gave */
 
-#define TEXT_OF(number) #number
+#define TEXT_OF(number)                   #number
 #define VERSION_TEXT(major, minor, patch) TEXT_OF(major) "." TEXT_OF(minor) "." TEXT_OF(patch)
 
 const char *gn_version(void)

@@ -15,8 +15,8 @@ static int is_degenerate(const uint32_t t[3])
     return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
 }
 
-/* Shell's sort: buckets are mostly six or so long, and a fan's hub must not cost a square. Ties keep no order, so the code
- * decides them. */
+/* Shell's sort: buckets are mostly six or so long, and a fan's hub must not cost a square. Ties keep no order, so
+ * the code decides them. */
 static void sort_uses(use *u, size_t count)
 {
     size_t gap = 1;
@@ -28,8 +28,10 @@ static void sort_uses(use *u, size_t count)
             const use x = u[i];
             size_t j = i;
 
-            for (; j >= gap && (u[j - gap].high > x.high || (u[j - gap].high == x.high &&
-                                (u[j - gap].code & GNI_USE_CORNER) > (x.code & GNI_USE_CORNER))); j -= gap)
+            for (; j >= gap &&
+                   (u[j - gap].high > x.high ||
+                    (u[j - gap].high == x.high && (u[j - gap].code & GNI_USE_CORNER) > (x.code & GNI_USE_CORNER)));
+                 j -= gap)
                 u[j] = u[j - gap];
             u[j] = x;
         }
@@ -90,7 +92,7 @@ gn_result gni_make_edges(gn_mesh *mesh)
         gni_free(context, starts);
         gni_free(context, sorted);
         return gn_fail(context, GN_E_MEMORY, "mesh: no memory for the edges of %lu triangles",
-                        (unsigned long)info->triangle_count);
+                       (unsigned long)info->triangle_count);
     }
     total = bucket_uses(mesh, starts, sorted);
     for (uint32_t v = 0, u = 0; v < info->vertex_count; v++)

@@ -1,34 +1,34 @@
 /* embedded.c - proves that a closed part does not touch or pass through itself but where its triangles share vertices.
  *
- * Every pair of triangles whose boxes meet is looked at, found by a tree of boxes over the part. The answer is one-sided: a
- * pair counts as apart only where double precision is sure of it, since "not sure" merely makes every triangle of the part
- * cast (parts.c). The first pair that is not surely apart ends the search, and so does a budget.
+ * Every pair of triangles whose boxes meet is looked at, found by a tree of boxes over the part. The answer is
+ * one-sided: a pair counts as apart only where double precision is sure of it, since "not sure" merely makes every
+ * triangle of the part cast (parts.c). The first pair that is not surely apart ends the search, and so does a budget.
  *
- * Two triangles without a common vertex: separating axes. With one: two flat sectors that meet at their apex. With two: the
- * fold along the common edge. With three: never apart. */
+ * Two triangles without a common vertex: separating axes. With one: two flat sectors that meet at their apex. With
+ * two: the fold along the common edge. With three: never apart. */
 #include "gni.h"
 
 #include <math.h>
 #include <string.h>
 
 #define LEAF 4u
-/* Pairs of boxes looked at for each triangle before the proof is given up: smooth meshes need 5 to 15. Many long triangles around
- * one vertex would take the square of their number. */
+/* Pairs of boxes looked at for each triangle before the proof is given up: smooth meshes need 5 to 15. Many long
+ * triangles around one vertex would take the square of their number. */
 #define BUDGET 64u
 /* Signs are trusted beyond this share of the largest term: coordinates are floats, so that a double product of three
  * differences errs by some 2^-51 of it. */
 #define DOUBT 1e-14
 
 typedef struct node {
-    float box[6]; /* min, max */
+    float box[6];          /* min, max */
     uint32_t first, count; /* leaf: triangles in order; count 0: inner */
     uint32_t right;        /* inner: the left child stands next */
 } node;
 
 typedef struct tree {
     const gn_mesh *mesh;
-    float (*box)[6];  /* of each triangle of the part: min, max */
-    uint32_t *order;  /* positions in the part's list */
+    float (*box)[6]; /* of each triangle of the part: min, max */
+    uint32_t *order; /* positions in the part's list */
     node *nodes;
     uint32_t node_count, first_triangle;
     uint64_t budget; /* pairs of boxes that may still be looked at */
@@ -287,7 +287,8 @@ int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part)
 
     t.box = gni_alloc(context, part->triangle_count, sizeof *t.box);
     t.order = gni_alloc(context, part->triangle_count, sizeof *t.order);
-    t.nodes = gni_alloc(context, (size_t)part->triangle_count, sizeof *t.nodes); /* leaves hold two at least, or are alone */
+    t.nodes =
+        gni_alloc(context, (size_t)part->triangle_count, sizeof *t.nodes); /* leaves hold two at least, or are alone */
     if (t.box && t.order && t.nodes) {
         for (uint32_t i = 0; i < part->triangle_count; i++) {
             const uint32_t *c = mesh->triangles + 3 * (size_t)mesh->part_triangles[part->first_triangle + i];

@@ -1,20 +1,21 @@
 /* ends.c - where the shadow volumes of an orthographic camera end.
  *
- * An orthographic camera cannot image a vertex at infinity, so its volumes end on planes, in a depth range that is widened to
- * hold them (DESIGN.md, decision 3). A wide range costs depth precision: the planes are chosen to keep it narrow.
+ * An orthographic camera cannot image a vertex at infinity, so its volumes end on planes, in a depth range that is
+ * widened to hold them (DESIGN.md, decision 3). A wide range costs depth precision: the planes are chosen to keep it
+ * narrow.
  *
- * A plane p > 0 on the side of everything visible that receives may end the volume of a triangle when the light is on that side
- * too and the triangle lies strictly between the plane and the parallel to it through the light: then each ray from the light
- * through the triangle reaches the plane behind everything that it could shadow (DESIGN.md, decision 6). A triangle that lies
- * wholly behind such a plane shadows nothing that is seen.
+ * A plane p > 0 on the side of everything visible that receives may end the volume of a triangle when the light is on
+ * that side too and the triangle lies strictly between the plane and the parallel to it through the light: then each
+ * ray from the light through the triangle reaches the plane behind everything that it could shadow (DESIGN.md, decision
+ * 6). A triangle that lies wholly behind such a plane shadows nothing that is seen.
  *
- * Candidates are the faces of two boxes around what is seen and receives, one along the view's axes and one along the
- * world's: a floor under a lamp ends right below itself. When one plane serves a whole caster, it is taken; otherwise each triangle takes
- * the plane that keeps its end nearest to the eye, and the caster's volume falls into as many closed volumes as there are
- * planes. A triangle that no face serves (a large one, seen under a wide angle from a light close to it) gets a plane
- * parallel to itself. */
-#include "gni.h"
+ * Candidates are the faces of two boxes around what is seen and receives, one along the view's axes and one along
+ * the world's: a floor under a lamp ends right below itself. When one plane serves a whole caster, it is taken;
+ * otherwise each triangle takes the plane that keeps its end nearest to the eye, and the caster's volume falls into
+ * as many closed volumes as there are planes. A triangle that no face serves (a large one, seen under a wide angle
+ * from a light close to it) gets a plane parallel to itself. */
 #include "gn_matrix.h"
+#include "gni.h"
 
 #include <math.h>
 #include <string.h>
@@ -52,8 +53,8 @@ static void add_margin(double low[3], double high[3])
     }
 }
 
-/* Cuts the box along the world's axes down to what the box along the view's axes reaches: a floor as wide as the world is seen
- * only so far. */
+/* Cuts the box along the world's axes down to what the box along the view's axes reaches: a floor as wide as the
+ * world is seen only so far. */
 static void clip_by_view(double low[3], double high[3], const double view_low[3], const double view_high[3],
                          const double axes[16])
 {
@@ -133,7 +134,8 @@ void gni_receiver_region(gni_region *region, const gn_scene *scene)
         memcpy(region->corner_max[box], high[box], sizeof high[box]);
     }
     memcpy(region->view_to_axes, axes, sizeof axes);
-    for (int p = 6; p < 12; p++) { /* a plane's normal turns with the inverse, and a rotation's inverse is its transpose */
+    for (int p = 6; p < 12;
+         p++) { /* a plane's normal turns with the inverse, and a rotation's inverse is its transpose */
         const double n[3] = {region->planes[p][0], region->planes[p][1], region->planes[p][2]};
 
         for (int i = 0; i < 3; i++)
@@ -162,8 +164,8 @@ static void triangle_in_view(const search *s, uint32_t triangle, double v[3][3])
     }
 }
 
-/* The greatest view distance of a triangle and its end on a plane; INFINITY when the plane cannot end it; -INFINITY when it
- * lies behind the plane and shadows nothing. */
+/* The greatest view distance of a triangle and its end on a plane; INFINITY when the plane cannot end it; -INFINITY
+ * when it lies behind the plane and shadows nothing. */
 static double depth_on(const search *s, const double plane[4], double v[3][3])
 {
     const double of_light = side(plane, s->light, s->light[3]);
@@ -255,7 +257,8 @@ static double best_common(const search *s, const int8_t *casting, uint32_t *best
 /* A plane for each triangle. Returns 0 when there are too many. */
 static int choose_each(gni_ends *ends, const search *s, const int8_t *casting, uint8_t *end_of)
 {
-    const double enough = 2.0 * s->region->deepest + s->region->corner_max[0][2]; /* twice the range: beyond it an own plane is tried */
+    const double enough =
+        2.0 * s->region->deepest + s->region->corner_max[0][2]; /* twice the range: beyond it an own plane is tried */
 
     memcpy(ends->planes, s->region->planes, sizeof s->region->planes);
     ends->count = 12;

@@ -1,9 +1,9 @@
 /* extrude.c - the one matrix that moves a caster's vertices away from the light.
  *
- * The line from the light l through a point x meets the plane p at (p . l) x - (p . x) l, in homogeneous coordinates. With the
- * plane at infinity, p = (0, 0, 0, 1), that is (x l_w - l, 0) for a point x with w = 1: the extrusion of Everitt 2002, section
- * 3.2.2, and of McGuire 2003. A finite plane ends the volume there. So one expression serves point lights and directional
- * ones, infinite and ended volumes. */
+ * The line from the light l through a point x meets the plane p at (p . l) x - (p . x) l, in homogeneous
+ * coordinates. With the plane at infinity, p = (0, 0, 0, 1), that is (x l_w - l, 0) for a point x with w = 1: the
+ * extrusion of Everitt 2002, section 3.2.2, and of McGuire 2003. A finite plane ends the volume there. So one
+ * expression serves point lights and directional ones, infinite and ended volumes. */
 #include "gni.h"
 
 void gni_extrusion(double out[16], const double light[4], const double plane[4])

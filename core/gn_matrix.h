@@ -17,7 +17,8 @@ void gn_mat4_identity(double out[16]);
 /* out = a b: b is applied to a point first. */
 void gn_mat4_multiply(double out[16], const double a[16], const double b[16]);
 
-/* out = translation * rotation * scale, as glTF composes a node. rotation is a quaternion x, y, z, w; any length but 0. */
+/* out = translation * rotation * scale, as glTF composes a node. rotation is a quaternion x, y, z, w; any length but
+ * 0. */
 void gn_mat4_from_trs(double out[16], const double translation[3], const double rotation[4], const double scale[3]);
 
 /* The determinant of the upper left 3x3 block: negative for a mirroring transform. */

@@ -10,28 +10,29 @@ struct gn_context {
     char message[256];
 };
 
-/* Memory from the port that remembers its size; NULL when the port gives none or count * size does not fit. Not cleared. */
+/* Memory from the port that remembers its size; NULL when the port gives none or count * size does not fit. Not
+ * cleared. */
 void *gni_alloc(gn_context *context, size_t count, size_t size);
 void gni_free(gn_context *context, void *block);
 
-/* A use of an edge by a triangle: its corner (3 * triangle + k; the use runs from corner k to the next), and in the top bit
- * whether it runs from the higher to the lower vertex. */
-#define GNI_USE_DOWN 0x80000000u
+/* A use of an edge by a triangle: its corner (3 * triangle + k; the use runs from corner k to the next), and in the
+ * top bit whether it runs from the higher to the lower vertex. */
+#define GNI_USE_DOWN   0x80000000u
 #define GNI_USE_CORNER 0x7fffffffu
 
 typedef struct gni_part {
     uint32_t first_triangle, triangle_count; /* in part_triangles */
-    int8_t outward; /* solid: 1 or -1, what turns its triangles outward. 0: not solid */
+    int8_t outward;                          /* solid: 1 or -1, what turns its triangles outward. 0: not solid */
     float box_min[3], box_max[3];
 } gni_part;
 
 struct gn_mesh {
     gn_context *context;
     gn_mesh_info info;
-    float *positions;      /* [vertex_count][3] */
-    uint32_t *triangles;   /* [triangle_count][3] */
-    double *planes;        /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
-    uint32_t *edge_uses;   /* [edge_count + 1]: where an edge's uses start; edges stand in order of chunks */
+    float *positions;    /* [vertex_count][3] */
+    uint32_t *triangles; /* [triangle_count][3] */
+    double *planes;      /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
+    uint32_t *edge_uses; /* [edge_count + 1]: where an edge's uses start; edges stand in order of chunks */
     uint32_t *uses;
     uint32_t *chunk_edges; /* [chunk_count + 1]: where a chunk's edges start */
     gni_part *parts;
@@ -51,8 +52,8 @@ gn_result gni_make_edges(gn_mesh *mesh);
 /* parts.c: connected parts, which of them are solid. */
 gn_result gni_make_parts(gn_mesh *mesh);
 
-/* embedded.c: 1 when the part is proven not to touch or pass through itself but where its triangles share vertices; 0 when
- * that is not so or not sure; -1 when memory ran out. */
+/* embedded.c: 1 when the part is proven not to touch or pass through itself but where its triangles share vertices;
+ * 0 when that is not so or not sure; -1 when memory ran out. */
 int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part);
 
 /* chunks.c: 16-bit indices; sorts the edges by chunk. */
@@ -79,8 +80,8 @@ typedef struct gni_stream {
 /* At most this many indices for all chunks of a caster, whatever the light. */
 size_t gni_volume_bound(const gn_mesh *mesh);
 
-/* parts: which of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP. converging: all far vertices are one point (a directional light to
- * infinity): sides are single triangles and the dark cap has no area. Returns the indices written. */
+/* parts: which of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP. converging: all far vertices are one point (a directional
+ * light to infinity): sides are single triangles and the dark cap has no area. Returns the indices written. */
 uint32_t gni_volume_indices(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, unsigned parts, int converging,
                             uint16_t *out, gni_stream *stream);
 
@@ -88,8 +89,9 @@ uint32_t gni_volume_indices(const gn_mesh *mesh, uint32_t chunk, const int8_t *c
 gn_result gni_check_camera(gn_context *context, const gn_camera *camera);
 /* World to view with the eye subtracted first: object positions less `centre` to view space. */
 void gni_model_view(double out[16], const gn_camera *camera, const double model[16], const float centre[3]);
-/* View to clip. range: what the depth buffer spans; the far end is not read for a perspective camera, whose rows z and w
- * are equal in x, y, z: multiplied with any affine matrix they stay so to the last bit (DESIGN.md, decision 3). */
+/* View to clip. range: what the depth buffer spans; the far end is not read for a perspective camera, whose rows z
+ * and w are equal in x, y, z: multiplied with any affine matrix they stay so to the last bit (DESIGN.md, decision
+ * 3). */
 void gni_projection(double out[16], const gn_camera *camera, const double range[2]);
 /* Window depth of a view distance, 0 to 1. */
 double gni_depth_of(const gn_camera *camera, const double range[2], double distance);
@@ -102,10 +104,12 @@ void gni_extrusion(double out[16], const double light[4], const double plane[4])
 #define GNI_MAX_ENDS 250 /* end planes of one caster for one light; a byte names one */
 
 typedef struct gni_region {
-    double planes[12][4]; /* view space: faces of boxes that hold everything visible that receives, and a margin; > 0 inside */
+    double
+        planes[12]
+              [4]; /* view space: faces of boxes that hold everything visible that receives, and a margin; > 0 inside */
     double corner_min[2][3], corner_max[2][3]; /* the two boxes: along view axes and along world axes */
-    double view_to_axes[16]; /* turns view space to the world's axes */
-    double deepest;       /* view distance of the farthest thing that can be seen */
+    double view_to_axes[16];                   /* turns view space to the world's axes */
+    double deepest;                            /* view distance of the farthest thing that can be seen */
     int empty;
 } gni_region;
 
@@ -113,9 +117,9 @@ void gni_receiver_region(gni_region *region, const gn_scene *scene);
 
 /* The volumes of one caster's casting triangles. */
 typedef struct gni_ends {
-    uint32_t count;                /* of planes; 0: no triangle casts on what is visible */
+    uint32_t count;                 /* of planes; 0: no triangle casts on what is visible */
     double planes[GNI_MAX_ENDS][4]; /* view space */
-    double deepest;                /* view distance of the farthest vertex of caster or end */
+    double deepest;                 /* view distance of the farthest vertex of caster or end */
 } gni_ends;
 
 /* Chooses end planes. light: [4] view space. end_of: [triangle_count] receives the plane of each casting triangle, or

@@ -1,17 +1,19 @@
 /* gnomon.h - shadow volumes, the part with no GL in it.
  *
- * Turns meshes, lights and a camera into a plan: which volumes are drawn, how, in which order, with their index streams.
- * It does not draw (gles/gnomon_gles.h does), load models, open files or make contexts.
+ * Turns meshes, lights and a camera into a plan: which volumes are drawn, how, in which order, with their index
+ * streams. It does not draw (gles/gnomon_gles.h does), load models, open files or make contexts.
  *
- * space     mesh positions in object space; lights, cameras and model matrices in world space; names ending in _px count
+ * space     mesh positions in object space; lights, cameras and model matrices in world space; names ending in _px
+ * count
  *           pixels from the lower left. Column vectors; matrices as in gn_matrix.h
- * winding   counter-clockwise is the front of a triangle, in object space
- * light     double[4] homogeneous where it stands alone: w = 1 a position, w = 0 a direction towards the light
- * units     lengths in scene units, angles in radians, sizes in bytes
- * lifetime  who creates destroys; gn_*_destroy(NULL) does nothing. "Borrowed": keep it alive and unchanged. "Copied": yours
+ * winding   counter-clockwise is the front of a triangle, in object space light     double[4] homogeneous where it
+ * stands alone: w = 1 a position, w = 0 a direction towards the light units     lengths in scene units, angles in
+ * radians, sizes in bytes lifetime  who creates destroys; gn_*_destroy(NULL) does nothing. "Borrowed": keep it alive
+ * and unchanged. "Copied": yours
  *           to free once the call returns
  * threads   no globals. A context and all made from it: one thread at a time. Different contexts: different threads
- * errors    gn_result from all that can fail; outputs stay untouched unless a comment says otherwise. gn_message() has the
+ * errors    gn_result from all that can fail; outputs stay untouched unless a comment says otherwise. gn_message() has
+ * the
  *           sentence with the numbers in it
  * floats    compile this library without -ffast-math: closed volumes rest on IEEE arithmetic */
 #ifndef GNOMON_H
@@ -49,16 +51,16 @@ typedef enum gn_result {
 
 typedef struct gn_context gn_context;
 
-/* Copies port (NULL: gn_port_libc()). Proves it first: one block is asked for, checked and given back, the clock is read
- * twice. Returns GN_OK, GN_E_ARG, GN_E_MEMORY; *context is NULL unless GN_OK. */
+/* Copies port (NULL: gn_port_libc()). Proves it first: one block is asked for, checked and given back, the clock is
+ * read twice. Returns GN_OK, GN_E_ARG, GN_E_MEMORY; *context is NULL unless GN_OK. */
 gn_result gn_context_create(const gn_port *port, gn_context **context);
 void gn_context_destroy(gn_context *context);
 
 /* The last failure, as a sentence. Never NULL; valid until the next call on the context. */
 const char *gn_message(const gn_context *context);
 
-/* For the rooms above (gles, fallback), which fail and allocate through the same context: sets the message and returns result;
- * the port that was given (NULL for NULL). */
+/* For the rooms above (gles, fallback), which fail and allocate through the same context: sets the message and
+ * returns result; the port that was given (NULL for NULL). */
 gn_result gn_fail(gn_context *context, gn_result result, const char *format, ...)
 #ifdef __GNUC__
     __attribute__((format(printf, 3, 4)))
@@ -72,15 +74,15 @@ typedef struct gn_mesh gn_mesh;
 
 /* Start from {0}; zero means the default in [brackets]. */
 typedef struct gn_mesh_desc {
-    const float *positions;  /* [vertex_count][3], object space, borrowed for the call */
+    const float *positions; /* [vertex_count][3], object space, borrowed for the call */
     size_t vertex_count;
     size_t stride;           /* bytes from one vertex to the next [12] */
     const uint32_t *indices; /* [triangle_count][3], borrowed for the call */
     size_t triangle_count;   /* up to GN_MAX_TRIANGLES */
 } gn_mesh_desc;
 
-#define GN_MAX_TRIANGLES 0x10000000u /* three corners and a sign must fit 32 bits */
-#define GN_CHUNK_VERTICES 32768u     /* each is uploaded twice (near, far), and 16-bit indices reach 65536 */
+#define GN_MAX_TRIANGLES  0x10000000u /* three corners and a sign must fit 32 bits */
+#define GN_CHUNK_VERTICES 32768u      /* each is uploaded twice (near, far), and 16-bit indices reach 65536 */
 
 /* Vertices that one set of 16-bit indices reaches. Its vertices are welded vertices; one that several chunks need is in
  * each. Index 2 i is vertex i as it is (near), 2 i + 1 the same vertex moved away from the light (far). */
@@ -98,11 +100,11 @@ typedef struct gn_mesh_info {
     uint32_t vertex_count;        /* after welding */
     uint32_t triangle_count;      /* as given: triangle i is the i-th of the description, whatever it is */
     uint32_t edge_count;
-    uint32_t part_count;        /* connected through edges that two triangles share */
-    uint32_t solid_part_count;  /* closed, wound alike, not passing through themselves: only their lit triangles cast */
-    uint32_t outward_part_count;  /* solid parts whose front faces look outward */
+    uint32_t part_count;       /* connected through edges that two triangles share */
+    uint32_t solid_part_count; /* closed, wound alike, not passing through themselves: only their lit triangles cast */
+    uint32_t outward_part_count; /* solid parts whose front faces look outward */
     uint32_t chunk_count;
-    int planar;                 /* all triangles lie in one plane */
+    int planar;                     /* all triangles lie in one plane */
     const float *positions;         /* [vertex_count][3], welded, less the centre */
     const uint32_t *triangles;      /* [triangle_count][3], into positions */
     const gn_chunk *chunks;         /* [chunk_count] */
@@ -110,22 +112,22 @@ typedef struct gn_mesh_info {
 } gn_mesh_info;
 
 /* Copies what it needs. Vertices are welded by exact position (-0 equals 0). Degenerate and duplicate triangles are
- * lawful; a mesh may have no triangle at all. Returns GN_OK, GN_E_ARG, GN_E_MESH, GN_E_MEMORY; *mesh is NULL unless GN_OK.
- * Time O(triangles log triangles); holds about 90 bytes a triangle. */
+ * lawful; a mesh may have no triangle at all. Returns GN_OK, GN_E_ARG, GN_E_MESH, GN_E_MEMORY; *mesh is NULL unless
+ * GN_OK. Time O(triangles log triangles); holds about 90 bytes a triangle. */
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **mesh);
 void gn_mesh_destroy(gn_mesh *mesh);
 const gn_mesh_info *gn_mesh_get_info(const gn_mesh *mesh);
 
-/* Which side of each triangle looks at the light: 1 its front, -1 its back, 0 neither (the light in its plane, or no area).
- * light: [4] object space less the mesh's centre. facing: [triangle_count]. Double precision, one expression
+/* Which side of each triangle looks at the light: 1 its front, -1 its back, 0 neither (the light in its plane, or no
+ * area). light: [4] object space less the mesh's centre. facing: [triangle_count]. Double precision, one expression
  * (DESIGN.md, decision 1); allocates nothing. */
 void gn_facing(const gn_mesh *mesh, const double light[4], int8_t *facing);
 
-/* Which triangles cast, and which way they are turned: 1 as wound, -1 turned round, 0 not casting. In a solid part with the
- * light outside the lit triangles cast, turned outward; in any other part every triangle casts, turned towards the light.
- * Then the volume's winding number at a point is the number of casting triangles that block the segment to the light, and is
- * non-zero exactly where some triangle does (DESIGN.md, decision 2; Kim, Kim and Turk 2008).
- * light: [4] object space less the mesh's centre. casting: [triangle_count]. Allocates nothing; O(triangles). */
+/* Which triangles cast, and which way they are turned: 1 as wound, -1 turned round, 0 not casting. In a solid part
+ * with the light outside the lit triangles cast, turned outward; in any other part every triangle casts, turned
+ * towards the light. Then the volume's winding number at a point is the number of casting triangles that block the
+ * segment to the light, and is non-zero exactly where some triangle does (DESIGN.md, decision 2; Kim, Kim and Turk
+ * 2008). light: [4] object space less the mesh's centre. casting: [triangle_count]. Allocates nothing; O(triangles). */
 void gn_casting(const gn_mesh *mesh, const double light[4], int8_t *casting);
 
 /* The chain of casting triangles ends in this edge `weight` times, running from a to b. */
@@ -165,7 +167,8 @@ typedef struct gn_light {
 enum {
     GN_CASTS = 1,    /* its triangles block light */
     GN_RECEIVES = 2, /* it is drawn under the mask; without: lit as if nothing stood in the way */
-    GN_DRAWN = 4     /* every one of its triangles that the eye could see is drawn to depth: from both sides, or single-sided
+    GN_DRAWN =
+        4 /* every one of its triangles that the eye could see is drawn to depth: from both sides, or single-sided
                         where all parts are solid and wound outward; not when some are cut by alpha or left out */
 };
 
@@ -176,8 +179,9 @@ typedef struct gn_object {
     unsigned flags;      /* of GN_CASTS, GN_RECEIVES, GN_DRAWN */
 } gn_object;
 
-/* gn_facing() and gn_casting() for an object in the world: [triangle_count]. A model matrix without inverse, which flattens the
- * object, is lawful: fronts are then those of the flattened triangles; lit ones cast in solid parts, all in others. */
+/* gn_facing() and gn_casting() for an object in the world: [triangle_count]. A model matrix without inverse, which
+ * flattens the object, is lawful: fronts are then those of the flattened triangles; lit ones cast in solid parts,
+ * all in others. */
 void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *facing);
 void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *casting);
 
@@ -225,16 +229,16 @@ typedef struct gn_scene {
 
 enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4 };
 
-/* One chunk of one caster's volume for one light. Its indices stand in gn_plan.indices from first_index on, in this order:
- * sides, dark cap, light cap, turned light cap. The last is the part of the light cap whose triangles cast turned round; it
- * keeps its drawn order of vertices (DESIGN.md, decision 4), so that its front counts as back. */
+/* One chunk of one caster's volume for one light. Its indices stand in gn_plan.indices from first_index on, in this
+ * order: sides, dark cap, light cap, turned light cap. The last is the part of the light cap whose triangles cast
+ * turned round; it keeps its drawn order of vertices (DESIGN.md, decision 4), so that its front counts as back. */
 typedef struct gn_record {
     uint32_t light, object, chunk;
     unsigned parts; /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: those with triangles */
     uint32_t first_index;
     uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
-    int mirrored;       /* the model matrix swaps front and back */
-    double end_plane[4]; /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
+    int mirrored;                                                           /* the model matrix swaps front and back */
+    double end_plane[4];  /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
     float far_matrix[16]; /* a far vertex's clip position is this times its position */
 } gn_record;
 
@@ -255,8 +259,8 @@ typedef enum gn_draw {
 typedef struct gn_step {
     gn_step_kind kind;
     gn_draw draw;
-    uint32_t light;                      /* index into the scene's lights, where it matters */
-    int receivers;                       /* GN_DRAW_LIGHT: 1 draw what receives, under the mask; 0 draw the rest, unmasked */
+    uint32_t light; /* index into the scene's lights, where it matters */
+    int receivers;  /* GN_DRAW_LIGHT: 1 draw what receives, under the mask; 0 draw the rest, unmasked */
     uint32_t first_record, record_count; /* GN_STEP_VOLUMES */
 } gn_step;
 
@@ -274,10 +278,11 @@ typedef struct gn_plan_object {
     float matrix[16]; /* positions less the mesh's centre to clip space: for every pass of this object */
 } gn_plan_object;
 
-/* Lives in the memory that was given to gn_plan_make(), and as long. Plain data; may be copied out, compared, printed. */
+/* Lives in the memory that was given to gn_plan_make(), and as long. Plain data; may be copied out, compared,
+ * printed. */
 typedef struct gn_plan {
     gn_target target;
-    double clear_depth;   /* 1, or the depth of zfar */
+    double clear_depth;    /* 1, or the depth of zfar */
     double depth_range[2]; /* view distances that depth 0 and 1 stand for; [1] is INFINITY for a perspective camera */
     const gn_step *steps;
     uint32_t step_count;
@@ -289,22 +294,23 @@ typedef struct gn_plan {
     uint32_t light_count;
     const gn_plan_object *objects;
     uint32_t object_count;
-    uint32_t endless_casters; /* a warning: volumes of orthographic cameras left out, because the light is so close to so many large
-                                 triangles that their ends need too many planes. One is counted for each light */
+    /* A warning: volumes of orthographic cameras that were left out, because the light is so close to so many large
+     * triangles that their ends need too many planes. One is counted for each light. */
+    uint32_t endless_casters;
 } gn_plan;
 
-/* Bytes that gn_plan_make() may need for this scene at most, whatever the camera, the lights' places and the model matrices
- * are: it depends on the counts, the meshes, the flags and camera.orthographic only. 0 when scene is NULL or the size does
- * not fit size_t. */
+/* Bytes that gn_plan_make() may need for this scene at most, whatever the camera, the lights' places and the model
+ * matrices are: it depends on the counts, the meshes, the flags and camera.orthographic only. 0 when scene is NULL
+ * or the size does not fit size_t. */
 size_t gn_plan_bound(const gn_scene *scene);
 
-/* Makes the plan of a frame in the given memory (aligned for double). Pure: equal scenes give equal bytes. Allocates nothing.
- * Returns GN_OK; GN_E_ARG for what is not finite or out of range; GN_E_SPACE; GN_E_DEVICE when the method needs what the
- * target lacks. Cost: O(triangles of casters) for each light. */
+/* Makes the plan of a frame in the given memory (aligned for double). Pure: equal scenes give equal bytes. Allocates
+ * nothing. Returns GN_OK; GN_E_ARG for what is not finite or out of range; GN_E_SPACE; GN_E_DEVICE when the method
+ * needs what the target lacks. Cost: O(triangles of casters) for each light. */
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan);
 
-/* Writes the plan as JSON into text[capacity], always terminated when capacity > 0, and returns the length that the whole
- * has, like snprintf. */
+/* Writes the plan as JSON into text[capacity], always terminated when capacity > 0, and returns the length that the
+ * whole has, like snprintf. */
 size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity);
 
 #ifdef __cplusplus

@@ -1,4 +1,5 @@
-/* mesh.c - a triangle soup made ready to cast: welded, with edges, planes, parts and 16-bit chunks, once for all frames. */
+/* mesh.c - a triangle soup made ready to cast: welded, with edges, planes, parts and 16-bit chunks, once for all
+ * frames. */
 #include "gni.h"
 
 #include <string.h>
@@ -48,7 +49,7 @@ static gn_result make_planes(gn_mesh *mesh)
     mesh->planes = gni_alloc(mesh->context, mesh->info.triangle_count, 4 * sizeof(double));
     if (!mesh->planes)
         return gn_fail(mesh->context, GN_E_MEMORY, "mesh: no memory for the planes of %lu triangles",
-                        (unsigned long)mesh->info.triangle_count);
+                       (unsigned long)mesh->info.triangle_count);
     mesh->info.planar = mesh->info.triangle_count > 0;
     for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
         double *plane = mesh->planes + 4 * (size_t)t;
@@ -82,11 +83,11 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
         return gn_fail(context, GN_E_ARG, "gn_mesh_create: NULL argument");
     if (desc->stride != 0 && (desc->stride < 3 * sizeof(float) || desc->stride % sizeof(float) != 0))
         return gn_fail(context, GN_E_ARG, "gn_mesh_create: stride of %lu bytes: a multiple of 4 from 12 on, or 0",
-                        (unsigned long)desc->stride);
+                       (unsigned long)desc->stride);
     if (desc->triangle_count > GN_MAX_TRIANGLES || desc->vertex_count > 3 * (size_t)GN_MAX_TRIANGLES)
         return gn_fail(context, GN_E_ARG, "gn_mesh_create: %lu triangles, %lu vertices: at most %lu triangles",
-                        (unsigned long)desc->triangle_count, (unsigned long)desc->vertex_count,
-                        (unsigned long)GN_MAX_TRIANGLES);
+                       (unsigned long)desc->triangle_count, (unsigned long)desc->vertex_count,
+                       (unsigned long)GN_MAX_TRIANGLES);
     mesh = gni_alloc(context, 1, sizeof *mesh);
     if (!mesh)
         return gn_fail(context, GN_E_MEMORY, "gn_mesh_create: no memory for a mesh");

@@ -1,13 +1,14 @@
 /* parts.c - the connected parts of a mesh, and which of them are solid.
  *
- * Two triangles belong to one part when they alone share an edge. An edge with three or more triangles joins nothing: the
- * smaller the parts, the more of them are solid, and each part is right by itself.
+ * Two triangles belong to one part when they alone share an edge. An edge with three or more triangles joins nothing:
+ * the smaller the parts, the more of them are solid, and each part is right by itself.
  *
- * A part is solid when its chain is closed, its triangles are wound alike, and it does not pass through itself. Its signed
- * volume then says which way is out, the winding number of any point is 0 or 1, and for a light outside the lit triangles
- * alone cast the whole shadow (DESIGN.md, decision 2). Closed and wound alike is not enough: a closed surface that passes
- * through itself can enclose a region the wrong way round, whose shadow lit triangles alone would miss. A part that is not
- * solid loses nothing but speed: each of its triangles casts (Kim, Kim and Turk 2008). */
+ * A part is solid when its chain is closed, its triangles are wound alike, and it does not pass through itself. Its
+ * signed volume then says which way is out, the winding number of any point is 0 or 1, and for a light outside the
+ * lit triangles alone cast the whole shadow (DESIGN.md, decision 2). Closed and wound alike is not enough: a closed
+ * surface that passes through itself can enclose a region the wrong way round, whose shadow lit triangles alone
+ * would miss. A part that is not solid loses nothing but speed: each of its triangles casts (Kim, Kim and Turk
+ * 2008). */
 #include "gni.h"
 
 #include <math.h>
@@ -37,11 +38,13 @@ static void join(const gn_mesh *mesh, uint32_t *parent)
             continue;
         a = root_of(parent, triangle_of(mesh->uses[u]));
         b = root_of(parent, triangle_of(mesh->uses[u + 1]));
-        parent[a < b ? b : a] = a < b ? a : b; /* the lowest triangle is the root: parts come in the order of the mesh */
+        parent[a < b ? b : a] =
+            a < b ? a : b; /* the lowest triangle is the root: parts come in the order of the mesh */
     }
 }
 
-/* part_of: from triangle to part, in place of parents; GNI_NONE for degenerate triangles. Returns the number of parts. */
+/* part_of: from triangle to part, in place of parents; GNI_NONE for degenerate triangles. Returns the number of
+ * parts. */
 static uint32_t number_parts(const gn_mesh *mesh, uint32_t *part_of)
 {
     uint32_t count = 0;
@@ -124,8 +127,8 @@ static void measure(gn_mesh *mesh, gni_part *part)
                 part->box_max[axis] = p > part->box_max[axis] ? p : part->box_max[axis];
                 v[k][axis] = (double)p - (double)origin[axis];
             }
-        volume += v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) + v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) +
-                  v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+        volume += v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) +
+                  v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) + v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
     }
     if (part->outward && volume < 0.0)
         part->outward = -1;
@@ -179,6 +182,6 @@ gn_result gni_make_parts(gn_mesh *mesh)
     gni_free(context, part_of);
     if (result == GN_E_MEMORY)
         return gn_fail(context, result, "mesh: no memory for the parts of %lu triangles",
-                        (unsigned long)info->triangle_count);
+                       (unsigned long)info->triangle_count);
     return result;
 }

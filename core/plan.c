@@ -1,8 +1,8 @@
 /* plan.c - decides a frame: steps, volumes, and their index streams, as plain data in the caller's memory.
  *
- * The order of the passes is McGuire's (2003, section 4): depth and ambient light together; for each light its volumes counted
- * into the stencil and its light added where the count is zero; last what is transparent. The whole colour, depth and stencil
- * are cleared once; between lights the stencil is zeroed by a quad (DESIGN.md, decision 9).
+ * The order of the passes is McGuire's (2003, section 4): depth and ambient light together; for each light its volumes
+ * counted into the stencil and its light added where the count is zero; last what is transparent. The whole colour,
+ * depth and stencil are cleared once; between lights the stencil is zeroed by a quad (DESIGN.md, decision 9).
  *
  * Memory is cut from the given block from its front: the bound and the plan walk the same list of arrays. */
 #include "gn_matrix.h"
@@ -54,7 +54,8 @@ static int lay_out(draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
     size_t records = 0, indices = 0, triangles = 0;
-    const size_t most = UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
+    const size_t most =
+        UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
 
     for (uint32_t i = 0; i < s->object_count; i++) {
         const gn_mesh *mesh = s->objects[i].mesh;
@@ -113,7 +114,7 @@ static gn_result check(gn_context *context, const gn_scene *s)
         return gn_fail(context, GN_E_ARG, "plan: NULL array of lights or objects");
     if (s->target.width == 0 || s->target.height == 0)
         return gn_fail(context, GN_E_ARG, "plan: target of %lux%lu pixels", (unsigned long)s->target.width,
-                        (unsigned long)s->target.height);
+                       (unsigned long)s->target.height);
     result = gni_check_camera(context, &s->camera);
     if (result != GN_OK)
         return result;
@@ -122,7 +123,8 @@ static gn_result check(gn_context *context, const gn_scene *s)
         const double *v = light->kind == GN_LIGHT_DIRECTIONAL ? light->towards : light->position;
 
         if ((unsigned)light->kind > GN_LIGHT_DIRECTIONAL)
-            return gn_fail(context, GN_E_ARG, "plan: light %lu is of unknown kind %d", (unsigned long)i, (int)light->kind);
+            return gn_fail(context, GN_E_ARG, "plan: light %lu is of unknown kind %d", (unsigned long)i,
+                           (int)light->kind);
         if (!all_finite(v, 3))
             return gn_fail(context, GN_E_ARG, "plan: light %lu is at %g %g %g", (unsigned long)i, v[0], v[1], v[2]);
         if (light->kind == GN_LIGHT_DIRECTIONAL && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)
@@ -137,7 +139,7 @@ static gn_result check(gn_context *context, const gn_scene *s)
             return gn_fail(context, GN_E_ARG, "plan: object %lu: its matrix is not finite", (unsigned long)i);
         if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
             return gn_fail(context, GN_E_ARG, "plan: object %lu: last row of its matrix is %g %g %g %g, not 0 0 0 1",
-                            (unsigned long)i, m[3], m[7], m[11], m[15]);
+                           (unsigned long)i, m[3], m[7], m[11], m[15]);
     }
     return GN_OK;
 }
@@ -157,10 +159,10 @@ static gn_result choose_method(const draft *d, gn_method *method, const char **r
     }
     if (t->stencil_bits < STENCIL_BITS_NEEDED)
         return gn_fail(d->context, GN_E_DEVICE, "method %s needs %d stencil bits: the target has %d",
-                        gn_method_describe(*method)->name, STENCIL_BITS_NEEDED, t->stencil_bits);
+                       gn_method_describe(*method)->name, STENCIL_BITS_NEEDED, t->stencil_bits);
     if (t->depth_bits < 1)
         return gn_fail(d->context, GN_E_DEVICE, "method %s needs a depth buffer: the target has none",
-                        gn_method_describe(*method)->name);
+                       gn_method_describe(*method)->name);
     return GN_OK;
 }
 
@@ -201,10 +203,10 @@ static void plane_before(double out[4], const double plane[4], const double m[16
     memcpy(out, r, sizeof r);
 }
 
-/* One closed volume: the casting triangles of one end plane (view space), a record for each chunk that has any of it. Everything
- * is extruded in view space: no inverse of the model matrix is needed. */
-static void add_records(draft *d, uint32_t light, uint32_t object_index, const int8_t *casting, const double light_view[4],
-                        const double end_plane[4])
+/* One closed volume: the casting triangles of one end plane (view space), a record for each chunk that has any of
+ * it. Everything is extruded in view space: no inverse of the model matrix is needed. */
+static void add_records(draft *d, uint32_t light, uint32_t object_index, const int8_t *casting,
+                        const double light_view[4], const double end_plane[4])
 {
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
@@ -221,7 +223,8 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         gn_record *r = &d->records[d->plan->record_count];
         gni_stream stream;
-        const uint32_t count = gni_volume_indices(mesh, c, casting, parts, converging, d->indices + d->plan->index_count, &stream);
+        const uint32_t count =
+            gni_volume_indices(mesh, c, casting, parts, converging, d->indices + d->plan->index_count, &stream);
 
         if (count == 0)
             continue;
@@ -394,11 +397,12 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
         return result;
     needed = gn_plan_bound(scene);
     if (needed == 0)
-        return gn_fail(context, GN_E_SPACE, "gn_plan_make: %lu lights and %lu objects need more indices than 32 bits count",
+        return gn_fail(context, GN_E_SPACE,
+                       "gn_plan_make: %lu lights and %lu objects need more indices than 32 bits count",
                        (unsigned long)scene->light_count, (unsigned long)scene->object_count);
     if (size < needed)
         return gn_fail(context, GN_E_SPACE, "gn_plan_make: %lu bytes given, %lu needed", (unsigned long)size,
-                        (unsigned long)needed);
+                       (unsigned long)needed);
     memset(&d, 0, sizeof d);
     d.context = context;
     d.scene = scene;

@@ -1,5 +1,5 @@
-/* plan_json.c - a plan as JSON, for people, for tools and for comparing two plans. Written like snprintf: it may be called
- * with no room to learn the length. */
+/* plan_json.c - a plan as JSON, for people, for tools and for comparing two plans. Written like snprintf: it may be
+ * called with no room to learn the length. */
 #include "gnomon.h"
 
 #include <math.h>
@@ -51,7 +51,9 @@ static void put_record(writer *w, const gn_record *r)
             put(w, "%s\"%s\"", separator, names[part]);
             separator = ", ";
         }
-    put(w, "], \"first_index\": %lu, \"indices\": {\"sides\": %lu, \"dark_cap\": %lu, \"light_cap\": %lu, \"turned_cap\": %lu},",
+    put(w,
+        "], \"first_index\": %lu, \"indices\": {\"sides\": %lu, \"dark_cap\": %lu, \"light_cap\": %lu, \"turned_cap\": "
+        "%lu},",
         (unsigned long)r->first_index, (unsigned long)r->side_count, (unsigned long)r->dark_cap_count,
         (unsigned long)r->light_cap_count, (unsigned long)r->turned_cap_count);
     put(w, " \"mirrored\": %s, \"end_plane\": [", r->mirrored ? "true" : "false");
@@ -75,7 +77,8 @@ static void put_step(writer *w, const gn_step *s)
     if (s->draw == GN_DRAW_LIGHT)
         put(w, ", \"receivers\": %s", s->receivers ? "true" : "false");
     if (s->kind == GN_STEP_VOLUMES)
-        put(w, ", \"first_record\": %lu, \"records\": %lu", (unsigned long)s->first_record, (unsigned long)s->record_count);
+        put(w, ", \"first_record\": %lu, \"records\": %lu", (unsigned long)s->first_record,
+            (unsigned long)s->record_count);
     put(w, "}");
 }
 
@@ -97,7 +100,9 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
     for (uint32_t i = 0; i < plan->light_count; i++) {
         const gn_plan_light *l = &plan->lights[i];
 
-        put(&w, "%s\n  {\"method\": \"%s\", \"reason\": \"%s\", \"casters\": %lu, \"case1\": %lu, \"case2\": %lu, \"case3\": %lu}",
+        put(&w,
+            "%s\n  {\"method\": \"%s\", \"reason\": \"%s\", \"casters\": %lu, \"case1\": %lu, \"case2\": %lu, "
+            "\"case3\": %lu}",
             i ? "," : "", gn_method_describe(l->method)->name, l->reason, (unsigned long)l->casters,
             (unsigned long)l->cases[0], (unsigned long)l->cases[1], (unsigned long)l->cases[2]);
     }

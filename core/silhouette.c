@@ -1,12 +1,11 @@
 /* silhouette.c - where the casting triangles end.
  *
- * "One neighbour lit, the other not" has no answer for an edge with one triangle or three. So the casting triangles are taken
- * as a chain: each adds its direction along an edge, and what does not cancel is the silhouette, with its multiplicity. A
- * boundary has no boundary: that is why the swept sides close on any soup.
+ * "One neighbour lit, the other not" has no answer for an edge with one triangle or three. So the casting triangles are
+ * taken as a chain: each adds its direction along an edge, and what does not cancel is the silhouette, with its
+ * multiplicity. A boundary has no boundary: that is why the swept sides close on any soup.
  *
- * Bergeron. A General Version of Crow's Shadow Volumes. IEEE CG&A 6(9), 1986.
- * Kim, Kim, Turk. A Shadow-Volume Algorithm for Opaque and Transparent Nonmanifold Casters. Journal of Graphics Tools 13(3),
- * 2008. */
+ * Bergeron. A General Version of Crow's Shadow Volumes. IEEE CG&A 6(9), 1986. Kim, Kim, Turk. A Shadow-Volume
+ * Algorithm for Opaque and Transparent Nonmanifold Casters. Journal of Graphics Tools 13(3), 2008. */
 #include "gni.h"
 
 gn_result gn_silhouette(const gn_mesh *mesh, const int8_t *casting, gn_edge *edges, size_t capacity, size_t *count)
@@ -23,11 +22,12 @@ gn_result gn_silhouette(const gn_mesh *mesh, const int8_t *casting, gn_edge *edg
         const int along = (weight > 0) == !(use & GNI_USE_DOWN); /* the chain runs as the first use does */
 
         if (weight != 0 && needed++ < capacity)
-            edges[needed - 1] = (gn_edge){along ? from : to, along ? to : from, (uint32_t)(weight < 0 ? -weight : weight)};
+            edges[needed - 1] =
+                (gn_edge){along ? from : to, along ? to : from, (uint32_t)(weight < 0 ? -weight : weight)};
     }
     *count = needed;
     if (needed > capacity)
         return gn_fail(mesh->context, GN_E_SPACE, "gn_silhouette: %lu edges, room for %lu", (unsigned long)needed,
-                        (unsigned long)capacity);
+                       (unsigned long)capacity);
     return GN_OK;
 }

@@ -4,8 +4,8 @@
  * reversed are the dark cap (DESIGN.md, decision 5); over every silhouette edge stands a side, as many times as its
  * multiplicity. Directed edges cancel in pairs, so the surface is closed, facing outward.
  *
- * With a directional light and no end plane all far vertices are one point at infinity: a side is a single triangle, and the
- * dark cap has no area (McGuire 2003, section 5).
+ * With a directional light and no end plane all far vertices are one point at infinity: a side is a single triangle,
+ * and the dark cap has no area (McGuire 2003, section 5).
  *
  * Order of a chunk's indices: sides, dark cap, light cap, turned light cap. The light cap keeps the drawn order of its
  * vertices: another order would give other depths (DESIGN.md, decision 4). */
@@ -65,7 +65,8 @@ static uint16_t *put_dark_cap(const gn_mesh *mesh, const gn_chunk *chunk, const 
     return out;
 }
 
-static uint16_t *put_light_cap(const gn_mesh *mesh, const gn_chunk *chunk, const int8_t *casting, int8_t turn, uint16_t *out)
+static uint16_t *put_light_cap(const gn_mesh *mesh, const gn_chunk *chunk, const int8_t *casting, int8_t turn,
+                               uint16_t *out)
 {
     for (uint32_t t = chunk->first_triangle; t < chunk->first_triangle + chunk->triangle_count; t++) {
         const uint16_t *c = mesh->corners + 3 * (size_t)t;
@@ -76,8 +77,8 @@ static uint16_t *put_light_cap(const gn_mesh *mesh, const gn_chunk *chunk, const
     return out;
 }
 
-uint32_t gni_volume_indices(const gn_mesh *mesh, uint32_t chunk_index, const int8_t *casting, unsigned parts, int converging,
-                            uint16_t *out, gni_stream *stream)
+uint32_t gni_volume_indices(const gn_mesh *mesh, uint32_t chunk_index, const int8_t *casting, unsigned parts,
+                            int converging, uint16_t *out, gni_stream *stream)
 {
     const gn_chunk *chunk = &mesh->chunks[chunk_index];
     uint16_t *const sides = out, *dark_cap, *light_cap, *turned_cap, *end;

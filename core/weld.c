@@ -25,12 +25,12 @@ static gn_result check(gn_context *context, const gn_mesh_desc *desc)
         for (int axis = 0; axis < 3; axis++)
             if (!isfinite(p[axis]))
                 return gn_fail(context, GN_E_MESH, "mesh: vertex %lu is not finite: its %c is %g", (unsigned long)i,
-                                "xyz"[axis], (double)p[axis]);
+                               "xyz"[axis], (double)p[axis]);
     }
     for (size_t i = 0; i < 3 * desc->triangle_count; i++)
         if (desc->indices[i] >= desc->vertex_count)
             return gn_fail(context, GN_E_MESH, "mesh: triangle %lu names vertex %lu of %lu", (unsigned long)(i / 3),
-                            (unsigned long)desc->indices[i], (unsigned long)desc->vertex_count);
+                           (unsigned long)desc->indices[i], (unsigned long)desc->vertex_count);
     return GN_OK;
 }
 

@@ -1,5 +1,5 @@
-/* buffers.c - meshes in vertex buffers, every vertex twice: w = 1 near, w = 0 far (McGuire 2003, section 4.2). They are sent
- * once; a frame sends only indices. */
+/* buffers.c - meshes in vertex buffers, every vertex twice: w = 1 near, w = 0 far (McGuire 2003, section 4.2). They
+ * are sent once; a frame sends only indices. */
 #include "gni_gles.h"
 
 #include <string.h>
@@ -44,7 +44,8 @@ static void send_vertices(const gn_gl *gl, const gn_mesh_info *info)
                 memcpy(batch[i][far], info->positions + 3 * (size_t)info->chunk_vertices[first + i], 3 * sizeof(float));
                 batch[i][far][3] = far ? 0.0f : 1.0f;
             }
-        gl->glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)(first * sizeof batch[0]), (GLsizeiptr)(n * sizeof batch[0]), batch);
+        gl->glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)(first * sizeof batch[0]), (GLsizeiptr)(n * sizeof batch[0]),
+                            batch);
     }
 }
 
@@ -63,8 +64,8 @@ gn_result gn_gles_upload(gn_gles *g, const gn_mesh *mesh)
     gl = &g->gl;
     if (g->upload_count == g->upload_capacity) {
         const uint32_t capacity = g->upload_capacity ? 2 * g->upload_capacity : 16;
-        gni_upload *grown = g->port.resize(g->port.user, g->uploads, g->upload_capacity * sizeof *grown,
-                                           capacity * sizeof *grown);
+        gni_upload *grown =
+            g->port.resize(g->port.user, g->uploads, g->upload_capacity * sizeof *grown, capacity * sizeof *grown);
 
         if (!grown)
             return gn_fail(g->context, GN_E_MEMORY, "gn_gles_upload: no memory for a list of meshes");

@@ -18,7 +18,8 @@ static gn_result refuse(gn_gles *g, const char *what)
 gn_result gn_gles_create(gn_context *context, gn_get_proc get_proc, void *user, gn_gles **out)
 {
     /* two triangles over the whole target; w = 1 takes the near matrix */
-    static const float corners[6][4] = {{-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1}, {-1, -1, 0, 1}, {1, 1, 0, 1}, {-1, 1, 0, 1}};
+    static const float corners[6][4] = {{-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1},
+                                        {-1, -1, 0, 1}, {1, 1, 0, 1},  {-1, 1, 0, 1}};
     const gn_port *port = gn_context_port(context);
     const char *missing;
     gn_gles *g;

@@ -1,6 +1,7 @@
-/* gl_funcs.h - every OpenGL ES 2.0 function that gnomon and the hosts in this tree call, once. Define GN_GL_PROC(name,
- * parameters, arguments) for those that return nothing and GN_GL_FUNC(type, name, parameters, arguments) for the others, then
- * include this file: it makes the struct of pointers, its loader, and the tests' null and recording GL. No include guard. */
+/* gl_funcs.h - every OpenGL ES 2.0 function that gnomon and the hosts in this tree call, once. Define
+ * GN_GL_PROC(name, parameters, arguments) for those that return nothing and GN_GL_FUNC(type, name, parameters,
+ * arguments) for the others, then include this file: it makes the struct of pointers, its loader, and the tests'
+ * null and recording GL. No include guard. */
 GN_GL_PROC(glActiveTexture, (GLenum texture), (texture))
 GN_GL_PROC(glAttachShader, (GLuint program, GLuint shader), (program, shader))
 GN_GL_PROC(glBindAttribLocation, (GLuint program, GLuint index, const GLchar *name), (program, index, name))

@@ -15,7 +15,7 @@ typedef struct gni_state {
     GLuint stencil_write;
     gni_face front, back;
     GLenum blend_source, blend_destination; /* 0, 0: no blending */
-    int offset; /* depth steps by which triangles are moved away from the eye */
+    int offset;                             /* depth steps by which triangles are moved away from the eye */
 } gni_state;
 
 typedef struct gni_upload {
@@ -52,7 +52,8 @@ GLuint gni_make_program(gn_gles *g, const char *name, const char *vertex, const 
 /* buffers.c */
 const gni_upload *gni_find_upload(const gn_gles *g, const gn_mesh *mesh);
 
-/* volumes.c: draws records with the state as it is; `turned` draws the part of the caps that counts the other way round. */
+/* volumes.c: draws records with the state as it is; `turned` draws the part of the caps that counts the other way
+ * round. */
 void gni_begin_volumes(gn_gles *g, const float color[4]);
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *record, int turned);
 void gni_end_volumes(gn_gles *g);

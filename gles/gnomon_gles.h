@@ -1,5 +1,5 @@
-/* gnomon_gles.h - walks a plan with OpenGL ES 2.0: counts volumes into the stencil buffer and hands the host its own drawing,
- * step by step, with the state for it already set.
+/* gnomon_gles.h - walks a plan with OpenGL ES 2.0: counts volumes into the stencil buffer and hands the host its own
+ * drawing, step by step, with the state for it already set.
  *
  *     gn_gles_begin(gl, plan);
  *     while (gn_gles_next(gl, &step))
@@ -15,18 +15,19 @@
  *
  * GL state. Between gn_gles_begin() and the end of the walk the host may change anything but the bound framebuffer.
  *
- *     on entry   the framebuffer that the plan's target describes is bound; no GL error is pending; the depth range is 0 to 1, and
- *                sample coverage and sample alpha to coverage are off, as in a new context. Any other state
- *     clear      the first gn_gles_next() clears colour (to the host's clear colour), depth and stencil, everything unmasked
+ *     on entry   the framebuffer that the plan's target describes is bound; no GL error is pending; the depth range is
+ *                0 to 1, and sample coverage and sample alpha to coverage are off, as in a new context. Any other state
+ *     clear      the first gn_gles_next() clears colour (to the host's clear colour), depth and stencil, unmasked
  *     AMBIENT    depth test LESS, depth written; stencil test and blending off
  *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL 0, not written;
  *                the others: stencil test off
  *     FINAL      depth test LESS, depth not written; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA; stencil test off
- *     in each    viewport 0, 0, width, height of the target; colour written; culling, scissor test and polygon offset off;
- *                front face CCW; blend equation ADD; no program in use; no buffer bound; all vertex attribute arrays disabled
- *     on exit    after gn_gles_next() has returned 0: all of these, polygon offset, clear depth and clear stencil are as in
- *                a new context, but the viewport, which is the target's. Nothing else was ever touched: textures, dither, clear colour,
- *                pixel store, attribute pointers but that of array 0
+ *     in each    viewport 0, 0, width, height of the target; colour written; culling, scissor test and polygon offset
+ *                off; front face CCW; blend equation ADD; no program in use; no buffer bound; all vertex attribute
+ *                arrays disabled
+ *     on exit    after gn_gles_next() has returned 0: all of these, polygon offset, clear depth and clear stencil are
+ *                as in a new context, but the viewport, which is the target's. Nothing else was ever touched: textures,
+ *                dither, clear colour, pixel store, attribute pointers but that of array 0
  *
  * Errors come as gn_result, sentences from gn_message() of the context; drivers' logs go to its port. Walking allocates
  * nothing and asks GL nothing. */
@@ -40,17 +41,17 @@ extern "C" {
 #endif
 
 /* Paste into a vertex shader after its #version and precision lines. */
-#define GN_GLSL_POSITION                                                                                                       \
-    "vec4 gn_position(highp mat4 gn_matrix, highp vec3 gn_vertex)\n"                                                           \
-    "{\n"                                                                                                                      \
-    "    return gn_matrix * vec4(gn_vertex, 1.0);\n"                                                                           \
+#define GN_GLSL_POSITION                                                                                               \
+    "vec4 gn_position(highp mat4 gn_matrix, highp vec3 gn_vertex)\n"                                                   \
+    "{\n"                                                                                                              \
+    "    return gn_matrix * vec4(gn_vertex, 1.0);\n"                                                                   \
     "}\n"
 
 typedef struct gn_gles gn_gles;
 
-/* Loads the functions, compiles the programs, makes the buffers. The GL context must be current, here and in every call below
- * but gn_gles_forget(). Leaves the state as gn_gles_next() does on exit. Returns GN_OK; GN_E_ARG; GN_E_MEMORY; GN_E_DEVICE when
- * a function is missing or a shader is refused. *gl is NULL unless GN_OK. */
+/* Loads the functions, compiles the programs, makes the buffers. The GL context must be current, here and in every
+ * call below but gn_gles_forget(). Leaves the state as gn_gles_next() does on exit. Returns GN_OK; GN_E_ARG;
+ * GN_E_MEMORY; GN_E_DEVICE when a function is missing or a shader is refused. *gl is NULL unless GN_OK. */
 gn_result gn_gles_create(gn_context *context, gn_get_proc get_proc, void *user, gn_gles **gl);
 
 /* Deletes what create and upload made. After gn_gles_forget() without any GL call. */
@@ -65,20 +66,21 @@ const gn_gl *gn_gles_functions(const gn_gles *gl);
 /* Reads the bits and samples of the bound framebuffer; width and height are the caller's to give. */
 gn_target gn_gles_describe_target(const gn_gles *gl, uint32_t width, uint32_t height);
 
-/* Puts a mesh's vertices into a buffer: 32 bytes a chunk vertex (near and far). Once before the first plan that has it.
- * The mesh must outlive its upload. Returns GN_OK (also when it was there already), GN_E_ARG, GN_E_MEMORY, GN_E_DEVICE. */
+/* Puts a mesh's vertices into a buffer: 32 bytes a chunk vertex (near and far). Once before the first plan that has
+ * it. The mesh must outlive its upload. Returns GN_OK (also when it was there already), GN_E_ARG, GN_E_MEMORY,
+ * GN_E_DEVICE. */
 gn_result gn_gles_upload(gn_gles *gl, const gn_mesh *mesh);
 void gn_gles_unload(gn_gles *gl, const gn_mesh *mesh); /* does nothing for one that is not there */
 
-/* Starts a frame: checks that every caster of the plan is uploaded and sends the plan's indices. The plan must stay until the
- * walk has ended. Returns GN_OK, GN_E_ARG. */
+/* Starts a frame: checks that every caster of the plan is uploaded and sends the plan's indices. The plan must stay
+ * until the walk has ended. Returns GN_OK, GN_E_ARG. */
 gn_result gn_gles_begin(gn_gles *gl, const gn_plan *plan);
 
 /* Does what the plan says up to the next step that is the host's. Returns 1 with that step, or 0 at the frame's end. */
 int gn_gles_next(gn_gles *gl, gn_step *step);
 
-/* Draws the volumes of some records of the plan last begun in one colour, to look at or to count. Depth, stencil, blending,
- * masks and culling are the host's; program, buffers and attribute arrays as on exit above. */
+/* Draws the volumes of some records of the plan last begun in one colour, to look at or to count. Depth, stencil,
+ * blending, masks and culling are the host's; program, buffers and attribute arrays as on exit above. */
 void gn_gles_draw_volumes(gn_gles *gl, const gn_plan *plan, uint32_t first_record, uint32_t record_count,
                           const float color[4]);
 

@@ -1,7 +1,7 @@
 /* state.c - GL state as data: each pass has a gni_state, and only what differs from the last one is sent.
  *
- * The cache holds from one entry of gn_gles_next() to its return: after that the host draws, and may have changed anything, so
- * every entry sends everything once. */
+ * The cache holds from one entry of gn_gles_next() to its return: after that the host draws, and may have changed
+ * anything, so every entry sends everything once. */
 #include "gni_gles.h"
 
 #include <string.h>
@@ -27,8 +27,8 @@ static int faces_differ(const gni_face *a, const gni_face *b)
 void gni_set_state(gn_gles *g, const gni_state *wanted)
 {
     const gn_gl *gl = &g->gl;
-    const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) | (wanted->blend_source ? 4u : 0u) |
-                        (wanted->offset ? 8u : 0u);
+    const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) |
+                        (wanted->blend_source ? 4u : 0u) | (wanted->offset ? 8u : 0u);
     gni_state *last = &g->state; /* what GL has; a detail never sent since a reset is 0 */
     const int all = !g->state_is_known;
 
@@ -67,8 +67,8 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         last->front = wanted->front;
         last->back = wanted->back;
     }
-    if (wanted->blend_source && (wanted->blend_source != last->blend_source ||
-                                 wanted->blend_destination != last->blend_destination)) {
+    if (wanted->blend_source &&
+        (wanted->blend_source != last->blend_source || wanted->blend_destination != last->blend_destination)) {
         gl->glBlendFunc(wanted->blend_source, wanted->blend_destination);
         last->blend_source = wanted->blend_source;
         last->blend_destination = wanted->blend_destination;
@@ -101,7 +101,7 @@ void gni_reset_state(gn_gles *g)
 void gni_leave_state(gn_gles *g)
 {
     static const gni_state fresh = {GL_TRUE, GL_TRUE, GL_LESS, GL_ALWAYS, ~0u, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP},
-                                    GL_ONE, GL_ZERO, 0};
+                                    GL_ONE,  GL_ZERO, 0};
     const gn_gl *gl = &g->gl;
 
     gni_reset_state(g);

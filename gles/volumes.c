@@ -1,8 +1,8 @@
 /* volumes.c - draws records: the triangles of volumes, with whatever state is set.
  *
- * A chunk's vertices stand in its mesh's buffer from its first vertex on, each twice, so attribute 0 is pointed there and the
- * record's 16-bit indices do the rest. The turned part of a light cap is a call of its own: it keeps its drawn order of
- * vertices, and the caller counts it the other way round (DESIGN.md, decision 4). */
+ * A chunk's vertices stand in its mesh's buffer from its first vertex on, each twice, so attribute 0 is pointed
+ * there and the record's 16-bit indices do the rest. The turned part of a light cap is a call of its own: it keeps
+ * its drawn order of vertices, and the caller counts it the other way round (DESIGN.md, decision 4). */
 #include "gni_gles.h"
 
 void gni_begin_volumes(gn_gles *g, const float color[4])
@@ -31,7 +31,8 @@ void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int tu
                               (const void *)((uintptr_t)chunk->first_vertex * 8 * sizeof(float)));
     gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, object->matrix);
     gl->glUniformMatrix4fv(g->far_matrix, 1, GL_FALSE, r->far_matrix);
-    gl->glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_SHORT, (const void *)((uintptr_t)first * sizeof(uint16_t)));
+    gl->glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_SHORT,
+                       (const void *)((uintptr_t)first * sizeof(uint16_t)));
 }
 
 void gni_end_volumes(gn_gles *g)
@@ -44,7 +45,8 @@ void gni_end_volumes(gn_gles *g)
     gl->glUseProgram(0);
 }
 
-void gn_gles_draw_volumes(gn_gles *g, const gn_plan *plan, uint32_t first_record, uint32_t record_count, const float color[4])
+void gn_gles_draw_volumes(gn_gles *g, const gn_plan *plan, uint32_t first_record, uint32_t record_count,
+                          const float color[4])
 {
     gni_begin_volumes(g, color);
     for (uint32_t i = first_record; i < first_record + record_count && i < plan->record_count; i++)

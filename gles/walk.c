@@ -1,21 +1,30 @@
 /* walk.c - walks a plan: decides nothing, does each step as data says, and stops where the host is to draw.
  *
- * Counting (Everitt 2002, section 3.3, with two-sided, wrapping stencil): a volume's surface faces outward. z-fail counts what
- * lies behind the visible surface, back faces up and front faces down; z-pass what lies before it, the other way round. Depth
- * is compared LESS: a light cap that is the visible surface itself counts as behind it, and that is why a surface is unlit on
- * the side turned away from the light and lit on the other. Wrapping keeps the order of draws from mattering.
+ * Counting (Everitt 2002, section 3.3, with two-sided, wrapping stencil): a volume's surface faces outward. z-fail
+ * counts what lies behind the visible surface, back faces up and front faces down; z-pass what lies before it, the
+ * other way round. Depth is compared LESS: a light cap that is the visible surface itself counts as behind it, and that
+ * is why a surface is unlit on the side turned away from the light and lit on the other. Wrapping keeps the order of
+ * draws from mattering.
  *
- * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other face of a
- * fold, lies less than a step behind the visible surface, and interpolation may put it before: the cap that shares the edge is
- * then counted and the side is not. One step back, what is behind stays behind; the visible cap counts as behind as it did;
- * and receivers move by less than depth can tell. Without it 7 certain pixels of the test scenes were wrong, with it none
- * (make truth, llvmpipe, both methods). */
+ * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other
+ * face of a fold, lies less than a step behind the visible surface, and interpolation may put it before: the cap
+ * that shares the edge is then counted and the side is not. One step back, what is behind stays behind; the visible
+ * cap counts as behind as it did; and receivers move by less than depth can tell. Without it 7 certain pixels of the
+ * test scenes were wrong, with it none (make truth, llvmpipe, both methods). */
 #include "gni_gles.h"
 
-#define UP GL_INCR_WRAP
+#define UP   GL_INCR_WRAP
 #define DOWN GL_DECR_WRAP
-#define NO_STENCIL 0, 0, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP}
-#define LIT GL_EQUAL, 0, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP}
+#define NO_STENCIL                                                                                                     \
+    0, 0, {GL_KEEP, GL_KEEP},                                                                                          \
+    {                                                                                                                  \
+        GL_KEEP, GL_KEEP                                                                                               \
+    }
+#define LIT                                                                                                            \
+    GL_EQUAL, 0, {GL_KEEP, GL_KEEP},                                                                                   \
+    {                                                                                                                  \
+        GL_KEEP, GL_KEEP                                                                                               \
+    }
 
 static const gni_state ambient = {GL_TRUE, GL_TRUE, GL_LESS, NO_STENCIL, 0, 0, 0};
 static const gni_state light_masked = {GL_TRUE, GL_FALSE, GL_EQUAL, LIT, GL_ONE, GL_ONE, 0};

@@ -1,5 +1,5 @@
-/* egl.c - a context through EGL with neither window nor GPU: displays are tried from the one that needs least (surfaceless,
- * device, default), and the surface is always a pbuffer, so that framebuffer 0 is a window's stand-in. */
+/* egl.c - a context through EGL with neither window nor GPU: displays are tried from the one that needs least
+ * (surfaceless, device, default), and the surface is always a pbuffer, so that framebuffer 0 is a window's stand-in. */
 #include "platform.h"
 
 #include <EGL/egl.h>
@@ -9,21 +9,21 @@
 #include <string.h>
 
 /* Every function of EGL that is called here: (type, name, parameters). */
-#define EGL_FUNCTIONS(F)                                                                                                       \
-    F(EGLBoolean, eglInitialize, (EGLDisplay, EGLint *, EGLint *))                                                             \
-    F(EGLBoolean, eglTerminate, (EGLDisplay))                                                                                  \
-    F(EGLBoolean, eglBindAPI, (EGLenum))                                                                                       \
-    F(EGLBoolean, eglChooseConfig, (EGLDisplay, const EGLint *, EGLConfig *, EGLint, EGLint *))                                \
-    F(EGLBoolean, eglGetConfigAttrib, (EGLDisplay, EGLConfig, EGLint, EGLint *))                                               \
-    F(EGLSurface, eglCreatePbufferSurface, (EGLDisplay, EGLConfig, const EGLint *))                                            \
-    F(EGLBoolean, eglQuerySurface, (EGLDisplay, EGLSurface, EGLint, EGLint *))                                                 \
-    F(EGLBoolean, eglDestroySurface, (EGLDisplay, EGLSurface))                                                                 \
-    F(EGLContext, eglCreateContext, (EGLDisplay, EGLConfig, EGLContext, const EGLint *))                                       \
-    F(EGLBoolean, eglDestroyContext, (EGLDisplay, EGLContext))                                                                 \
-    F(EGLBoolean, eglMakeCurrent, (EGLDisplay, EGLSurface, EGLSurface, EGLContext))                                            \
-    F(EGLDisplay, eglGetDisplay, (EGLNativeDisplayType))                                                                       \
-    F(const char *, eglQueryString, (EGLDisplay, EGLint))                                                                      \
-    F(EGLint, eglGetError, (void))                                                                                             \
+#define EGL_FUNCTIONS(F)                                                                                               \
+    F(EGLBoolean, eglInitialize, (EGLDisplay, EGLint *, EGLint *))                                                     \
+    F(EGLBoolean, eglTerminate, (EGLDisplay))                                                                          \
+    F(EGLBoolean, eglBindAPI, (EGLenum))                                                                               \
+    F(EGLBoolean, eglChooseConfig, (EGLDisplay, const EGLint *, EGLConfig *, EGLint, EGLint *))                        \
+    F(EGLBoolean, eglGetConfigAttrib, (EGLDisplay, EGLConfig, EGLint, EGLint *))                                       \
+    F(EGLSurface, eglCreatePbufferSurface, (EGLDisplay, EGLConfig, const EGLint *))                                    \
+    F(EGLBoolean, eglQuerySurface, (EGLDisplay, EGLSurface, EGLint, EGLint *))                                         \
+    F(EGLBoolean, eglDestroySurface, (EGLDisplay, EGLSurface))                                                         \
+    F(EGLContext, eglCreateContext, (EGLDisplay, EGLConfig, EGLContext, const EGLint *))                               \
+    F(EGLBoolean, eglDestroyContext, (EGLDisplay, EGLContext))                                                         \
+    F(EGLBoolean, eglMakeCurrent, (EGLDisplay, EGLSurface, EGLSurface, EGLContext))                                    \
+    F(EGLDisplay, eglGetDisplay, (EGLNativeDisplayType))                                                               \
+    F(const char *, eglQueryString, (EGLDisplay, EGLint))                                                              \
+    F(EGLint, eglGetError, (void))                                                                                     \
     F(__eglMustCastToProperFunctionPointerType, eglGetProcAddress, (const char *))
 
 typedef struct egl_platform {
@@ -60,9 +60,9 @@ static const char *load(egl_platform *e)
     if (!e->egl_library)
         return "there is no libEGL.so.1";
     e->gles_library = platform_library(gles_names); /* without it functions come from eglGetProcAddress */
-#define LOAD(type, name, parameters)                                                                                           \
-    e->name = (type(EGLAPIENTRY *) parameters)platform_symbol(e->egl_library, #name);                                          \
-    if (!e->name)                                                                                                              \
+#define LOAD(type, name, parameters)                                                                                   \
+    e->name = (type(EGLAPIENTRY *) parameters)platform_symbol(e->egl_library, #name);                                  \
+    if (!e->name)                                                                                                      \
         return "libEGL has no " #name;
     EGL_FUNCTIONS(LOAD)
 #undef LOAD
@@ -90,7 +90,8 @@ static EGLDisplay display_of(egl_platform *e, int way)
         EGLDeviceEXT device;
         EGLint count = 0;
 
-        if (!get || !query || !has_word(extensions, "EGL_EXT_platform_device") || !query(1, &device, &count) || count < 1)
+        if (!get || !query || !has_word(extensions, "EGL_EXT_platform_device") || !query(1, &device, &count) ||
+            count < 1)
             return EGL_NO_DISPLAY;
         return get(EGL_PLATFORM_DEVICE_EXT, device, NULL);
     }
@@ -101,11 +102,27 @@ static EGLDisplay display_of(egl_platform *e, int way)
 static int choose_config(egl_platform *e, const platform_desc *d, EGLConfig *config)
 {
     for (int less = 0; less < 5; less++) { /* without alpha; 16 bits of depth; no stencil; 565 and nothing else */
-        const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT,
-                                 EGL_RED_SIZE, less < 4 ? d->red_bits : 0, EGL_GREEN_SIZE, less < 4 ? d->green_bits : 0,
-                                 EGL_BLUE_SIZE, less < 4 ? d->blue_bits : 0, EGL_ALPHA_SIZE, less < 1 ? d->alpha_bits : 0,
-                                 EGL_DEPTH_SIZE, less < 2 || d->depth_bits < 16 ? d->depth_bits : less < 4 ? 16 : 0,
-                                 EGL_STENCIL_SIZE, less < 3 ? d->stencil_bits : 0, EGL_SAMPLES, 0, EGL_NONE};
+        const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                                 EGL_PBUFFER_BIT,
+                                 EGL_RENDERABLE_TYPE,
+                                 EGL_OPENGL_ES2_BIT,
+                                 EGL_RED_SIZE,
+                                 less < 4 ? d->red_bits : 0,
+                                 EGL_GREEN_SIZE,
+                                 less < 4 ? d->green_bits : 0,
+                                 EGL_BLUE_SIZE,
+                                 less < 4 ? d->blue_bits : 0,
+                                 EGL_ALPHA_SIZE,
+                                 less < 1 ? d->alpha_bits : 0,
+                                 EGL_DEPTH_SIZE,
+                                 less < 2 || d->depth_bits < 16 ? d->depth_bits
+                                 : less < 4                     ? 16
+                                                                : 0,
+                                 EGL_STENCIL_SIZE,
+                                 less < 3 ? d->stencil_bits : 0,
+                                 EGL_SAMPLES,
+                                 0,
+                                 EGL_NONE};
         EGLint count = 0;
 
         if (e->eglChooseConfig(e->display, wanted, config, 1, &count) && count > 0)
@@ -119,8 +136,9 @@ static const char *make(egl_platform *e, const platform_desc *d)
 {
     const EGLint size[] = {EGL_WIDTH, (EGLint)d->width, EGL_HEIGHT, (EGLint)d->height, EGL_NONE};
     const EGLint version[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
-    const EGLint names[6] = {EGL_RED_SIZE, EGL_GREEN_SIZE, EGL_BLUE_SIZE, EGL_ALPHA_SIZE, EGL_DEPTH_SIZE, EGL_STENCIL_SIZE};
-    int *const bits[6] = {&e->base.actual.red_bits, &e->base.actual.green_bits, &e->base.actual.blue_bits,
+    const EGLint names[6] = {EGL_RED_SIZE,   EGL_GREEN_SIZE, EGL_BLUE_SIZE,
+                             EGL_ALPHA_SIZE, EGL_DEPTH_SIZE, EGL_STENCIL_SIZE};
+    int *const bits[6] = {&e->base.actual.red_bits,   &e->base.actual.green_bits, &e->base.actual.blue_bits,
                           &e->base.actual.alpha_bits, &e->base.actual.depth_bits, &e->base.actual.stencil_bits};
     EGLConfig config;
     EGLint width = 0, height = 0;

@@ -22,7 +22,8 @@ void (*platform_symbol(void *library, const char *name))(void)
     void *const symbol = dlsym(library, name);
     void (*function)(void) = NULL;
 
-    memcpy(&function, &symbol, sizeof function); /* POSIX lets a function stand in an object pointer; C99 does not convert it */
+    memcpy(&function, &symbol,
+           sizeof function); /* POSIX lets a function stand in an object pointer; C99 does not convert it */
     return function;
 }
 

@@ -16,7 +16,8 @@ typedef void *osmesa_context;
 typedef struct osmesa_platform {
     platform base;
     void *library;
-    osmesa_context (*create)(GLenum format, GLint depth_bits, GLint stencil_bits, GLint accum_bits, osmesa_context share);
+    osmesa_context (*create)(GLenum format, GLint depth_bits, GLint stencil_bits, GLint accum_bits,
+                             osmesa_context share);
     void (*destroy)(osmesa_context context);
     GLboolean (*make_current)(osmesa_context context, void *buffer, GLenum type, GLsizei width, GLsizei height);
     void (*(*get_proc)(const char *name))(void);
@@ -30,7 +31,8 @@ static int make_current(platform *p)
 {
     osmesa_platform *o = (osmesa_platform *)p;
 
-    return o->make_current(o->context, o->buffer, GL_UNSIGNED_BYTE, (GLsizei)p->actual.width, (GLsizei)p->actual.height) != 0;
+    return o->make_current(o->context, o->buffer, GL_UNSIGNED_BYTE, (GLsizei)p->actual.width,
+                           (GLsizei)p->actual.height) != 0;
 }
 
 static void destroy(platform *p)
@@ -51,11 +53,11 @@ static const char *open_library(osmesa_platform *o)
     o->library = platform_library(names);
     if (!o->library)
         return "there is no libOSMesa.so.8";
-    o->create = (osmesa_context(*)(GLenum, GLint, GLint, GLint, osmesa_context))platform_symbol(o->library,
-                                                                                               "OSMesaCreateContextExt");
+    o->create = (osmesa_context(*)(GLenum, GLint, GLint, GLint, osmesa_context))platform_symbol(
+        o->library, "OSMesaCreateContextExt");
     o->destroy = (void (*)(osmesa_context))platform_symbol(o->library, "OSMesaDestroyContext");
-    o->make_current =
-        (GLboolean(*)(osmesa_context, void *, GLenum, GLsizei, GLsizei))platform_symbol(o->library, "OSMesaMakeCurrent");
+    o->make_current = (GLboolean(*)(osmesa_context, void *, GLenum, GLsizei, GLsizei))platform_symbol(
+        o->library, "OSMesaMakeCurrent");
     o->get_proc = (void (*(*)(const char *))(void))platform_symbol(o->library, "OSMesaGetProcAddress");
     return o->create && o->destroy && o->make_current && o->get_proc ? NULL : "the library lacks a function";
 }
@@ -69,8 +71,9 @@ static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE
         o->base = (platform){&platform_osmesa, *desc, "memory"};
     if (!failure) {
         void(GL_APIENTRY * get)(GLenum, GLint *);
-        static const GLenum names[6] = {GL_RED_BITS, GL_GREEN_BITS, GL_BLUE_BITS, GL_ALPHA_BITS, GL_DEPTH_BITS, GL_STENCIL_BITS};
-        int *const bits[6] = {&o->base.actual.red_bits, &o->base.actual.green_bits, &o->base.actual.blue_bits,
+        static const GLenum names[6] = {GL_RED_BITS,   GL_GREEN_BITS, GL_BLUE_BITS,
+                                        GL_ALPHA_BITS, GL_DEPTH_BITS, GL_STENCIL_BITS};
+        int *const bits[6] = {&o->base.actual.red_bits,   &o->base.actual.green_bits, &o->base.actual.blue_bits,
                               &o->base.actual.alpha_bits, &o->base.actual.depth_bits, &o->base.actual.stencil_bits};
 
         o->buffer = calloc(desc->height, 4 * (size_t)desc->width);

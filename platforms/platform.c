@@ -45,8 +45,10 @@ void (*platform_get_proc(void *user, const char *name))(void)
 int platform_read_back(platform *p, uint8_t *rgba)
 {
     void(GL_APIENTRY * read)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void *) =
-        (void(GL_APIENTRY *)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void *))platform_get_proc(p, "glReadPixels");
-    void(GL_APIENTRY * store)(GLenum, GLint) = (void(GL_APIENTRY *)(GLenum, GLint))platform_get_proc(p, "glPixelStorei");
+        (void(GL_APIENTRY *)(GLint, GLint, GLsizei, GLsizei, GLenum, GLenum, void *))platform_get_proc(p,
+                                                                                                       "glReadPixels");
+    void(GL_APIENTRY * store)(GLenum, GLint) =
+        (void(GL_APIENTRY *)(GLenum, GLint))platform_get_proc(p, "glPixelStorei");
     GLenum(GL_APIENTRY * error)(void) = (GLenum(GL_APIENTRY *)(void))platform_get_proc(p, "glGetError");
     const size_t row = 4 * (size_t)p->actual.width;
     uint8_t *const swap = malloc(row);

@@ -1,7 +1,7 @@
 /* platform.h - where an OpenGL ES 2.0 context comes from. Knows no shadows; nothing but the tools and tests knows it.
  *
- * A platform opens its libraries at run time, so one binary serves whatever is installed. One context with one surface each.
- * Errors are sentences "what: why" in a buffer of PLATFORM_MESSAGE bytes. */
+ * A platform opens its libraries at run time, so one binary serves whatever is installed. One context with one
+ * surface each. Errors are sentences "what: why" in a buffer of PLATFORM_MESSAGE bytes. */
 #ifndef PLATFORM_H
 #define PLATFORM_H
 #include <stdint.h>
@@ -19,7 +19,7 @@ typedef struct platform_desc {
 typedef struct platform_kind {
     const char *name;
     platform *(*create)(const platform_desc *desc, char message[PLATFORM_MESSAGE]); /* also makes it current */
-    int (*make_current)(platform *p); /* 1, or 0 */
+    int (*make_current)(platform *p);                                               /* 1, or 0 */
     void (*(*get_proc)(platform *p, const char *name))(void);
     int (*lost)(platform *p); /* 1: the context is gone for good; destroy it and open another */
     void (*destroy)(platform *p);
@@ -35,13 +35,15 @@ struct platform {
 /* The kinds, in the order in which they are tried; ends with NULL. */
 extern const platform_kind *const platform_kinds[];
 
-/* Opens the kind of that name, or with NULL the first that works. On failure NULL, with each kind's own reason in message. */
+/* Opens the kind of that name, or with NULL the first that works. On failure NULL, with each kind's own reason in
+ * message. */
 platform *platform_open(const char *name, const platform_desc *desc, char message[PLATFORM_MESSAGE]);
 
 /* In the form that gn_gles_create() takes; user is the platform. */
 void (*platform_get_proc(void *user, const char *name))(void);
 
-/* Waits for the drawing to end and copies the surface: [height][width][4] RGBA, row 0 on top. 1, or 0 when the GL refuses. */
+/* Waits for the drawing to end and copies the surface: [height][width][4] RGBA, row 0 on top. 1, or 0 when the GL
+ * refuses. */
 int platform_read_back(platform *p, uint8_t *rgba);
 
 void platform_close(platform *p); /* NULL does nothing */

@@ -19,8 +19,8 @@ typedef enum gn_log_level { GN_LOG_ERROR, GN_LOG_WARNING, GN_LOG_INFO } gn_log_l
 typedef struct gn_port {
     uint32_t version; /* GN_PORT_VERSION; members are only ever added at the end */
     void *user;       /* first argument of every call below */
-    /* Allocates (block NULL), resizes, or frees (new_size 0; returns NULL). old_size is what was last asked for, so that
-     * an arena needs no headers. Blocks are aligned for any type. On failure NULL, and the old block is intact. */
+    /* Allocates (block NULL), resizes, or frees (new_size 0; returns NULL). old_size is what was last asked for, so
+     * that an arena needs no headers. Blocks are aligned for any type. On failure NULL, and the old block is intact. */
     void *(*resize)(void *user, void *block, size_t old_size, size_t new_size);
     /* One line without newline, for a person. Must not call gnomon. [dropped] */
     void (*log)(void *user, int level, const char *line);

@@ -1,5 +1,5 @@
-/* port_template.c - a port for a board without operating system: copy it, rename it, fill it in. It is compiled in every
- * build, and a test makes meshes and plans with it, so it works as it stands.
+/* port_template.c - a port for a board without operating system: copy it, rename it, fill it in. It is compiled in
+ * every build, and a test makes meshes and plans with it, so it works as it stands.
  *
  * What it shows: memory from one fixed block. Blocks are cut from its front; only the last one can grow, shrink or be
  * given back in place; others are given back when all are. That suits a program that loads its meshes once. gnomon

@@ -22,8 +22,8 @@ typedef struct fresh_file {
     char *path, *temporary;
 } fresh_file;
 
-int fresh_open(fresh_file *f, const char *path);  /* 1, or 0 having said why */
-int fresh_close(fresh_file *f, int keep);         /* 1 when kept and whole; says why not */
+int fresh_open(fresh_file *f, const char *path); /* 1, or 0 having said why */
+int fresh_close(fresh_file *f, int keep);        /* 1 when kept and whole; says why not */
 
 /* channels: 2 grey and alpha, 3 RGB; rows from the top. 1, or 0 having said why. */
 int write_png(const char *path, const uint8_t *pixels, uint32_t width, uint32_t height, int channels);

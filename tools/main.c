@@ -18,7 +18,8 @@ int command_methods(int count, char **arguments)
     for (int m = 0; m < GN_METHOD_COUNT; m++) {
         const gn_method_info *info = gn_method_describe((gn_method)m);
 
-        printf("%-8s %-8s %s\n%-17s needs: %s\n", info->name, info->exact ? "exact" : "inexact", info->summary, "", info->needs);
+        printf("%-8s %-8s %s\n%-17s needs: %s\n", info->name, info->exact ? "exact" : "inexact", info->summary, "",
+               info->needs);
     }
     return EXIT_DONE;
 }

@@ -4,7 +4,8 @@
 
 typedef enum option_kind { OPTION_TEXT, OPTION_WHOLE, OPTION_NUMBER, OPTION_SIZE, OPTION_FLAG } option_kind;
 
-/* One option of a command. `value` points to: const char * (TEXT), long (WHOLE), double (NUMBER), long[2] (SIZE), int (FLAG). */
+/* One option of a command. `value` points to: const char * (TEXT), long (WHOLE), double (NUMBER), long[2] (SIZE),
+ * int (FLAG). */
 typedef struct option {
     const char *name; /* with its dashes */
     option_kind kind;
@@ -12,6 +13,7 @@ typedef struct option {
     double low, high; /* of what is counted or measured, both ends included */
 } option;
 
-/* Fills values and puts what is no option first into arguments. Returns how many those are, or -1 having said what is wrong. */
+/* Fills values and puts what is no option first into arguments. Returns how many those are, or -1 having said what
+ * is wrong. */
 int parse_options(int count, char **arguments, const option *options, int option_count);
 #endif

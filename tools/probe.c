@@ -1,4 +1,5 @@
-/* probe.c - `gnomon probe`: what the context is, and which methods it can do. It never fails because something is absent. */
+/* probe.c - `gnomon probe`: what the context is, and which methods it can do. It never fails because something is
+ * absent. */
 #include "command.h"
 
 #include <cjson/cJSON.h>
@@ -22,8 +23,10 @@ static const struct {
     const char *name;
     GLenum value;
 } strings[] = {{"driver", GL_VERSION}, {"renderer", GL_RENDERER}, {"vendor", GL_VENDOR}, {"shading_language", 0x8B8C}},
-  limits[] = {{"max_texture_size", GL_MAX_TEXTURE_SIZE}, {"max_renderbuffer_size", GL_MAX_RENDERBUFFER_SIZE},
-              {"max_vertex_attribs", GL_MAX_VERTEX_ATTRIBS}, {"max_vertex_uniform_vectors", GL_MAX_VERTEX_UNIFORM_VECTORS},
+  limits[] = {{"max_texture_size", GL_MAX_TEXTURE_SIZE},
+              {"max_renderbuffer_size", GL_MAX_RENDERBUFFER_SIZE},
+              {"max_vertex_attribs", GL_MAX_VERTEX_ATTRIBS},
+              {"max_vertex_uniform_vectors", GL_MAX_VERTEX_UNIFORM_VECTORS},
               {"max_fragment_uniform_vectors", GL_MAX_FRAGMENT_UNIFORM_VECTORS}};
 
 /* Why a method cannot draw into the target; NULL when it can. */
@@ -113,8 +116,7 @@ static void print_table(const cJSON *o, int indent)
 {
     const cJSON *row;
 
-    cJSON_ArrayForEach(row, o)
-    {
+    cJSON_ArrayForEach (row, o) {
         printf("%*s%-*s", indent, "", 30 - indent, row->string);
         if (cJSON_IsObject(row)) {
             printf("\n");

@@ -1,4 +1,5 @@
-/* render.c - `gnomon render`: a glTF scene, lit, with exact shadows, into a picture; its masks, its plan, what it cost. */
+/* render.c - `gnomon render`: a glTF scene, lit, with exact shadows, into a picture; its masks, its plan, what it
+ * cost. */
 #define _POSIX_C_SOURCE 200809L
 #include "command.h"
 
@@ -12,23 +13,23 @@
 #include "report.h"
 #include "stage.h"
 
-const char help_render[] =
-    "usage: gnomon render SCENE.gltf|SCENE.glb [options]\n"
-    "\n"
-    "Draws a glTF 2.0 scene with pixel-exact shadows in OpenGL ES 2.0, without a window.\n"
-    "\n"
-    "  -o FILE.png           the lit frame\n"
-    "  --size WxH            [800x600]\n"
-    "  --mask-dir DIR        writes light0.png, light1.png ... into DIR: 255 lit, 0 shadowed, alpha where a surface is\n"
-    "  --method NAME         see `gnomon methods` [auto]\n"
-    "  --platform NAME       egl or osmesa [the first that works]\n"
-    "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
-    "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
-    "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
-    "  --show WHAT           over the frame: volumes, silhouette; or the mask\n"
-    "  --plan FILE.json      the plan of the last frame\n"
-    "  --report FILE.json    driver, lights, counts and times\n"
-    "  --help                this text\n";
+const char help_render[] = "usage: gnomon render SCENE.gltf|SCENE.glb [options]\n"
+                           "\n"
+                           "Draws a glTF 2.0 scene with pixel-exact shadows in OpenGL ES 2.0, without a window.\n"
+                           "\n"
+                           "  -o FILE.png           the lit frame\n"
+                           "  --size WxH            [800x600]\n"
+                           "  --mask-dir DIR        writes light0.png, light1.png ... into DIR: 255 lit, 0 shadowed, "
+                           "alpha where a surface is\n"
+                           "  --method NAME         see `gnomon methods` [auto]\n"
+                           "  --platform NAME       egl or osmesa [the first that works]\n"
+                           "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
+                           "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
+                           "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
+                           "  --show WHAT           over the frame: volumes, silhouette; or the mask\n"
+                           "  --plan FILE.json      the plan of the last frame\n"
+                           "  --report FILE.json    driver, lights, counts and times\n"
+                           "  --help                this text\n";
 
 typedef struct job {
     const char *frame, *mask_dir, *method_name, *platform, *show, *plan, *report;

@@ -12,8 +12,8 @@ typedef struct timings {
 
 typedef struct measured {
     uint32_t frames;
-    gl_counts counts;     /* of the last frame, whole */
-    uint64_t allocations; /* in all frames but the first */
+    gl_counts counts;                                /* of the last frame, whole */
+    uint64_t allocations;                            /* in all frames but the first */
     uint64_t fragments_rasterised, fragments_passed; /* of the last frame's volumes */
     timings ms;
 } measured;

@@ -1,24 +1,24 @@
-/* test_laws.c - the two laws of DESIGN.md, decision 2, over random meshes and lights, by way of the index streams that are
- * really drawn.
+/* test_laws.c - the two laws of DESIGN.md, decision 2, over random meshes and lights, by way of the index streams that
+ * are really drawn.
  *
- * Closure: the signed directed edges of a volume's triangles sum to zero, whatever mesh and light.
- * Shadow: the winding number of the volume about a point is non-zero exactly where some triangle meets the open segment from
- * the point to the light. The first law alone does not see a wrong choice of casting triangles.
+ * Closure: the signed directed edges of a volume's triangles sum to zero, whatever mesh and light. Shadow: the winding
+ * number of the volume about a point is non-zero exactly where some triangle meets the open segment from the point to
+ * the light. The first law alone does not see a wrong choice of casting triangles.
  *
- * Meshes lie on a grid of whole numbers, and so do many of the lights: lights on vertices, on edges and in the planes of
- * triangles are common, and double precision decides them exactly. */
-#include "gn_test.h"
+ * Meshes lie on a grid of whole numbers, and so do many of the lights: lights on vertices, on edges and in the
+ * planes of triangles are common, and double precision decides them exactly. */
 #include "gn_matrix.h"
+#include "gn_test.h"
 #include "gni.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define TRIALS 100000
+#define TRIALS       100000
 #define ENDED_TRIALS 10000
-#define POINTS 4
-#define MOST 512 /* triangles of a mesh here */
+#define POINTS       4
+#define MOST         512 /* triangles of a mesh here */
 
 static test_mesh soup;
 static uint32_t rng;
@@ -134,7 +134,8 @@ static void make_light(const gn_mesh *mesh, double light[4])
     }
 }
 
-/* The volume's triangles as welded vertices: 2 v near, 2 v + 1 far, or 1 for the one far point of a directional light. */
+/* The volume's triangles as welded vertices: 2 v near, 2 v + 1 far, or 1 for the one far point of a directional
+ * light. */
 static uint32_t volume_triangles(const gn_mesh *mesh, const int8_t *casting, int converging, uint32_t (*out)[3])
 {
     static uint16_t indices[24 * MOST];
@@ -143,8 +144,8 @@ static uint32_t volume_triangles(const gn_mesh *mesh, const int8_t *casting, int
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         const gn_chunk *chunk = &mesh->info.chunks[c];
         gni_stream stream;
-        const uint32_t n = gni_volume_indices(mesh, c, casting, GN_SIDES | GN_LIGHT_CAP | GN_DARK_CAP, converging, indices,
-                                              &stream);
+        const uint32_t n =
+            gni_volume_indices(mesh, c, casting, GN_SIDES | GN_LIGHT_CAP | GN_DARK_CAP, converging, indices, &stream);
         const uint32_t turned = n - stream.turned_cap;
 
         assert_int_equal(n, stream.sides + stream.dark_cap + stream.light_cap + stream.turned_cap);
@@ -245,12 +246,14 @@ static int blockers(const gn_mesh *mesh, const double light[4], const double poi
 
         for (int k = 0; k < 3; k++)
             for (int axis = 0; axis < 3; axis++)
-                v[k][axis] = (double)mesh->info.positions[3 * (size_t)mesh->info.triangles[3 * (size_t)t + (size_t)k] +
-                                                          (size_t)axis] - point[axis];
+                v[k][axis] =
+                    (double)mesh->info
+                        .positions[3 * (size_t)mesh->info.triangles[3 * (size_t)t + (size_t)k] + (size_t)axis] -
+                    point[axis];
         for (int k = 0; k < 3; k++)
             s[k] = triple(v[k], v[(k + 1) % 3], to_light);
-        before = triple(v[0], v[1], v[2]);                                                   /* side of the point */
-        after = mesh->planes[4 * t] * light[0] + mesh->planes[4 * t + 1] * light[1] +        /* side of the light */
+        before = triple(v[0], v[1], v[2]);                                            /* side of the point */
+        after = mesh->planes[4 * t] * light[0] + mesh->planes[4 * t + 1] * light[1] + /* side of the light */
                 mesh->planes[4 * t + 2] * light[2] + mesh->planes[4 * t + 3] * light[3];
         if (after == 0.0)
             continue; /* edge-on, or without area */
@@ -367,8 +370,8 @@ static int is_askew(const double plane[4], const double world[16])
     return most < 0.9999;
 }
 
-/* The shadow law for volumes that end on planes: at random points of what an orthographic camera sees, the volumes of a plan wind
- * around the point exactly where the light is blocked. */
+/* The shadow law for volumes that end on planes: at random points of what an orthographic camera sees, the volumes
+ * of a plan wind around the point exactly where the light is blocked. */
 static void ended_volumes_shadow_what_is_seen(void **state)
 {
     static const double eye[3] = {0, 0, 0}, one[3] = {1, 1, 1};
@@ -442,7 +445,8 @@ static void ended_volumes_shadow_what_is_seen(void **state)
                 continue;
             winding = (int)lrint(plan_angle(plan, clip) / (4.0 * 3.14159265358979323846));
             if ((winding != 0) != (blocked != 0))
-                fail_msg("trial %u: %d triangles block the light, the ended volumes wind %d times", trial, blocked, winding);
+                fail_msg("trial %u: %d triangles block the light, the ended volumes wind %d times", trial, blocked,
+                         winding);
             sure++;
             shadowed += blocked != 0;
         }

@@ -341,10 +341,10 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(unshared_vertices_weld),    cmocka_unit_test(solid_parts_are_told),
+        cmocka_unit_test(unshared_vertices_weld),         cmocka_unit_test(solid_parts_are_told),
         cmocka_unit_test(flat_neighbours_are_no_contact), cmocka_unit_test(the_centre_is_exact),
-        cmocka_unit_test(chunks_reach_everything),   cmocka_unit_test(bad_input_is_refused),
-        cmocka_unit_test(odd_meshes_are_lawful),     cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(chunks_reach_everything),        cmocka_unit_test(bad_input_is_refused),
+        cmocka_unit_test(odd_meshes_are_lawful),          cmocka_unit_test(every_allocation_may_fail),
     };
 
     return cmocka_run_group_tests_name("mesh", tests, set_up, tear_down);

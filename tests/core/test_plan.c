@@ -1,6 +1,6 @@
 /* test_plan.c - plans: pure, within their bound, and what a frame's parts must be. */
-#include "gn_test.h"
 #include "gn_matrix.h"
+#include "gn_test.h"
 #include "gni.h"
 #include "port_template.h"
 
@@ -84,10 +84,10 @@ static void a_frame_has_its_steps(void **state)
         gn_step_kind kind;
         gn_draw draw;
         uint32_t light;
-    } expected[] = {{GN_STEP_CLEAR, GN_DRAW_NOTHING, 0}, {GN_STEP_DRAW, GN_DRAW_AMBIENT, 0},
+    } expected[] = {{GN_STEP_CLEAR, GN_DRAW_NOTHING, 0},   {GN_STEP_DRAW, GN_DRAW_AMBIENT, 0},
                     {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 0}, {GN_STEP_DRAW, GN_DRAW_LIGHT, 0},
-                    {GN_STEP_ZERO, GN_DRAW_NOTHING, 1}, {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 1},
-                    {GN_STEP_DRAW, GN_DRAW_LIGHT, 1}, {GN_STEP_DRAW, GN_DRAW_FINAL, 0}};
+                    {GN_STEP_ZERO, GN_DRAW_NOTHING, 1},    {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 1},
+                    {GN_STEP_DRAW, GN_DRAW_LIGHT, 1},      {GN_STEP_DRAW, GN_DRAW_FINAL, 0}};
     fixture f;
     void *memory;
     const gn_plan *plan;
@@ -168,7 +168,8 @@ static void planning_is_pure_and_bounded(void **state)
     drop_fixture(&f);
 }
 
-/* Rows z and w of a perspective matrix, far vertices' too, are equal to the last bit: nothing at infinity is clipped. */
+/* Rows z and w of a perspective matrix, far vertices' too, are equal to the last bit: nothing at infinity is
+ * clipped. */
 static void infinity_is_not_clipped(void **state)
 {
     uint32_t rng = 77;
@@ -224,7 +225,8 @@ static void distance_from_the_origin_does_not_matter(void **state)
     drop_fixture(&f);
 }
 
-/* Orthographic volumes end: every far vertex is finite and not behind the widened depth range; the zfar is the cleared depth. */
+/* Orthographic volumes end: every far vertex is finite and not behind the widened depth range; the zfar is the
+ * cleared depth. */
 static void orthographic_volumes_end(void **state)
 {
     uint32_t rng = 5;
@@ -249,7 +251,8 @@ static void orthographic_volumes_end(void **state)
         plan = make_plan(&f, &memory);
         assert_true(isfinite(plan->depth_range[1]));
         if (trial % 2)
-            assert_true(plan->depth_range[1] >= 30 && fabs(plan->clear_depth * (plan->depth_range[1] + 20) - 50) < 1e-9);
+            assert_true(plan->depth_range[1] >= 30 &&
+                        fabs(plan->clear_depth * (plan->depth_range[1] + 20) - 50) < 1e-9);
         else
             assert_true(plan->clear_depth == 1.0);
         for (uint32_t r = 0; r < plan->record_count; r++) {
@@ -265,7 +268,8 @@ static void orthographic_volumes_end(void **state)
                     continue;
                 z = w = 0.0;
                 for (int c = 0; c < 4; c++) {
-                    const double p = c < 3 ? (double)info->positions[3 * (size_t)info->chunk_vertices[index / 2] + (size_t)c] : 1.0;
+                    const double p =
+                        c < 3 ? (double)info->positions[3 * (size_t)info->chunk_vertices[index / 2] + (size_t)c] : 1.0;
 
                     z += (double)record->far_matrix[4 * c + 2] * p;
                     w += (double)record->far_matrix[4 * c + 3] * p;
@@ -289,13 +293,13 @@ static void bad_scenes_are_refused(void **state)
 
     (void)state;
     make_fixture(&f);
-#define REFUSED(result, words)                                                                                                 \
-    do {                                                                                                                       \
-        assert_int_equal(gn_plan_make(context, &f.scene, memory, 1 << 20, &plan), result);                                    \
-        assert_non_null(strstr(gn_message(context), words));                                                                   \
-        assert_null(plan);                                                                                                     \
-        drop_fixture(&f);                                                                                                      \
-        make_fixture(&f);                                                                                                      \
+#define REFUSED(result, words)                                                                                         \
+    do {                                                                                                               \
+        assert_int_equal(gn_plan_make(context, &f.scene, memory, 1 << 20, &plan), result);                             \
+        assert_non_null(strstr(gn_message(context), words));                                                           \
+        assert_null(plan);                                                                                             \
+        drop_fixture(&f);                                                                                              \
+        make_fixture(&f);                                                                                              \
     } while (0)
     f.scene.camera.znear = 0.0;
     REFUSED(GN_E_ARG, "znear 0");
@@ -335,8 +339,9 @@ static void bad_scenes_are_refused(void **state)
 /* The JSON's length is told without room, it is cut and terminated with too little, and it names what it must. */
 static void json_tells_the_plan(void **state)
 {
-    static const char *const words[] = {"\"clear_depth\": 1", "\"method\": \"zfail\"", "\"case3\": 2", "\"light cap\"",
-                                        "\"step\": \"zero\"", "\"draw\": \"final\"", "\"depth_range\": [0.1"};
+    static const char *const words[] = {"\"clear_depth\": 1",   "\"method\": \"zfail\"", "\"case3\": 2",
+                                        "\"light cap\"",        "\"step\": \"zero\"",    "\"draw\": \"final\"",
+                                        "\"depth_range\": [0.1"};
     fixture f;
     void *memory;
     const gn_plan *plan;
@@ -400,10 +405,10 @@ static int tear_down(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_frame_has_its_steps),   cmocka_unit_test(planning_is_pure_and_bounded),
-        cmocka_unit_test(infinity_is_not_clipped), cmocka_unit_test(distance_from_the_origin_does_not_matter),
+        cmocka_unit_test(a_frame_has_its_steps),    cmocka_unit_test(planning_is_pure_and_bounded),
+        cmocka_unit_test(infinity_is_not_clipped),  cmocka_unit_test(distance_from_the_origin_does_not_matter),
         cmocka_unit_test(orthographic_volumes_end), cmocka_unit_test(bad_scenes_are_refused),
-        cmocka_unit_test(json_tells_the_plan),     cmocka_unit_test(the_template_port_works),
+        cmocka_unit_test(json_tells_the_plan),      cmocka_unit_test(the_template_port_works),
     };
 
     return cmocka_run_group_tests_name("plan", tests, set_up, tear_down);

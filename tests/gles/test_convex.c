@@ -1,11 +1,11 @@
-/* test_convex.c - a convex closed caster alone shadows nothing that its light sees: from 24 views, with the light at four
- * distances, on each driver, no pixel that the truth calls lit is shadowed in the mask by a volume.
+/* test_convex.c - a convex closed caster alone shadows nothing that its light sees: from 24 views, with the light at
+ * four distances, on each driver, no pixel that the truth calls lit is shadowed in the mask by a volume.
  *
- * At an edge a rasteriser, which snaps vertices, may see the triangle on the other side of it, turned from the light; that is
- * told from a false shadow by the mask of the same frame without volumes. */
+ * At an edge a rasteriser, which snaps vertices, may see the triangle on the other side of it, turned from the
+ * light; that is told from a false shadow by the mask of the same frame without volumes. */
 #define _DEFAULT_SOURCE
-#include "gn_test.h"
 #include "gn_matrix.h"
+#include "gn_test.h"
 #include "stage.h"
 #include "truth.h"
 
@@ -139,10 +139,10 @@ static void check_driver(const char *kind, const char *gallium)
             for (int i = 0; i < 3; i++)
                 s->lights[0].position[i] = s->shading[0].position[i] = m.light.position[i];
             t = truth_create(&m.s, &tracing, message);
-            if (!t || !truth_light(t, 0, lit, visible, classes, message) || stage_plan(s, GN_METHOD_ZFAIL, 0, 1, 0, message) ||
-                !stage_draw_mask(s, 0, message) || !platform_read_back(s->platform, facing) ||
-                stage_plan(s, GN_METHOD_ZFAIL, 0, 1, 1, message) || !stage_draw_mask(s, 0, message) ||
-                !platform_read_back(s->platform, rgba)) {
+            if (!t || !truth_light(t, 0, lit, visible, classes, message) ||
+                stage_plan(s, GN_METHOD_ZFAIL, 0, 1, 0, message) || !stage_draw_mask(s, 0, message) ||
+                !platform_read_back(s->platform, facing) || stage_plan(s, GN_METHOD_ZFAIL, 0, 1, 1, message) ||
+                !stage_draw_mask(s, 0, message) || !platform_read_back(s->platform, rgba)) {
                 printf("%s: %s\n", kind, message);
                 _exit(255);
             }

@@ -1,5 +1,5 @@
-/* test_state.c - the GL state that gnomon_gles.h promises, on a real driver: all of it is read before, at each step, and
- * after, from a context whose every state was turned away from its default first. */
+/* test_state.c - the GL state that gnomon_gles.h promises, on a real driver: all of it is read before, at each step,
+ * and after, from a context whose every state was turned away from its default first. */
 #include "frame.h"
 #include "platform.h"
 
@@ -12,28 +12,70 @@ static gn_context *context;
 static gn_gles *gles;
 static const gn_gl *gl;
 
-/* State that has one or several numbers, all of it: of OpenGL ES 2.0, tables 6.2 to 6.20, less strings and constants. */
+/* State that has one or several numbers, all of it: of OpenGL ES 2.0, tables 6.2 to 6.20, less strings and
+ * constants. */
 static const struct {
     GLenum name;
     int count;
     int touched; /* the header says what it is on exit */
 } states[] = {
-    {GL_ARRAY_BUFFER_BINDING, 1, 1}, {GL_ELEMENT_ARRAY_BUFFER_BINDING, 1, 1}, {GL_VIEWPORT, 4, 1}, {GL_DEPTH_RANGE, 2, 0},
-    {GL_LINE_WIDTH, 1, 0}, {GL_CULL_FACE, 1, 1}, {GL_CULL_FACE_MODE, 1, 0}, {GL_FRONT_FACE, 1, 1},
-    {GL_POLYGON_OFFSET_FACTOR, 1, 1}, {GL_POLYGON_OFFSET_UNITS, 1, 1}, {GL_POLYGON_OFFSET_FILL, 1, 1},
-    {GL_SAMPLE_ALPHA_TO_COVERAGE, 1, 0}, {GL_SAMPLE_COVERAGE, 1, 0}, {GL_SAMPLE_COVERAGE_VALUE, 1, 0},
-    {GL_SAMPLE_COVERAGE_INVERT, 1, 0}, {GL_ACTIVE_TEXTURE, 1, 0}, {GL_TEXTURE_BINDING_2D, 1, 0},
-    {GL_TEXTURE_BINDING_CUBE_MAP, 1, 0}, {GL_SCISSOR_TEST, 1, 1}, {GL_SCISSOR_BOX, 4, 0}, {GL_STENCIL_TEST, 1, 1},
-    {GL_STENCIL_FUNC, 1, 1}, {GL_STENCIL_VALUE_MASK, 1, 1}, {GL_STENCIL_REF, 1, 1}, {GL_STENCIL_FAIL, 1, 1},
-    {GL_STENCIL_PASS_DEPTH_FAIL, 1, 1}, {GL_STENCIL_PASS_DEPTH_PASS, 1, 1}, {GL_STENCIL_BACK_FUNC, 1, 1},
-    {GL_STENCIL_BACK_VALUE_MASK, 1, 1}, {GL_STENCIL_BACK_REF, 1, 1}, {GL_STENCIL_BACK_FAIL, 1, 1},
-    {GL_STENCIL_BACK_PASS_DEPTH_FAIL, 1, 1}, {GL_STENCIL_BACK_PASS_DEPTH_PASS, 1, 1}, {GL_DEPTH_TEST, 1, 1},
-    {GL_DEPTH_FUNC, 1, 1}, {GL_BLEND, 1, 1}, {GL_BLEND_SRC_RGB, 1, 1}, {GL_BLEND_SRC_ALPHA, 1, 1}, {GL_BLEND_DST_RGB, 1, 1},
-    {GL_BLEND_DST_ALPHA, 1, 1}, {GL_BLEND_EQUATION_RGB, 1, 1}, {GL_BLEND_EQUATION_ALPHA, 1, 1}, {GL_BLEND_COLOR, 4, 0},
-    {GL_DITHER, 1, 0}, {GL_COLOR_WRITEMASK, 4, 1}, {GL_DEPTH_WRITEMASK, 1, 1}, {GL_STENCIL_WRITEMASK, 1, 1},
-    {GL_STENCIL_BACK_WRITEMASK, 1, 1}, {GL_COLOR_CLEAR_VALUE, 4, 0}, {GL_DEPTH_CLEAR_VALUE, 1, 1},
-    {GL_STENCIL_CLEAR_VALUE, 1, 1}, {GL_FRAMEBUFFER_BINDING, 1, 0}, {GL_RENDERBUFFER_BINDING, 1, 0},
-    {GL_UNPACK_ALIGNMENT, 1, 0}, {GL_PACK_ALIGNMENT, 1, 0}, {GL_CURRENT_PROGRAM, 1, 1}, {GL_GENERATE_MIPMAP_HINT, 1, 0},
+    {GL_ARRAY_BUFFER_BINDING, 1, 1},
+    {GL_ELEMENT_ARRAY_BUFFER_BINDING, 1, 1},
+    {GL_VIEWPORT, 4, 1},
+    {GL_DEPTH_RANGE, 2, 0},
+    {GL_LINE_WIDTH, 1, 0},
+    {GL_CULL_FACE, 1, 1},
+    {GL_CULL_FACE_MODE, 1, 0},
+    {GL_FRONT_FACE, 1, 1},
+    {GL_POLYGON_OFFSET_FACTOR, 1, 1},
+    {GL_POLYGON_OFFSET_UNITS, 1, 1},
+    {GL_POLYGON_OFFSET_FILL, 1, 1},
+    {GL_SAMPLE_ALPHA_TO_COVERAGE, 1, 0},
+    {GL_SAMPLE_COVERAGE, 1, 0},
+    {GL_SAMPLE_COVERAGE_VALUE, 1, 0},
+    {GL_SAMPLE_COVERAGE_INVERT, 1, 0},
+    {GL_ACTIVE_TEXTURE, 1, 0},
+    {GL_TEXTURE_BINDING_2D, 1, 0},
+    {GL_TEXTURE_BINDING_CUBE_MAP, 1, 0},
+    {GL_SCISSOR_TEST, 1, 1},
+    {GL_SCISSOR_BOX, 4, 0},
+    {GL_STENCIL_TEST, 1, 1},
+    {GL_STENCIL_FUNC, 1, 1},
+    {GL_STENCIL_VALUE_MASK, 1, 1},
+    {GL_STENCIL_REF, 1, 1},
+    {GL_STENCIL_FAIL, 1, 1},
+    {GL_STENCIL_PASS_DEPTH_FAIL, 1, 1},
+    {GL_STENCIL_PASS_DEPTH_PASS, 1, 1},
+    {GL_STENCIL_BACK_FUNC, 1, 1},
+    {GL_STENCIL_BACK_VALUE_MASK, 1, 1},
+    {GL_STENCIL_BACK_REF, 1, 1},
+    {GL_STENCIL_BACK_FAIL, 1, 1},
+    {GL_STENCIL_BACK_PASS_DEPTH_FAIL, 1, 1},
+    {GL_STENCIL_BACK_PASS_DEPTH_PASS, 1, 1},
+    {GL_DEPTH_TEST, 1, 1},
+    {GL_DEPTH_FUNC, 1, 1},
+    {GL_BLEND, 1, 1},
+    {GL_BLEND_SRC_RGB, 1, 1},
+    {GL_BLEND_SRC_ALPHA, 1, 1},
+    {GL_BLEND_DST_RGB, 1, 1},
+    {GL_BLEND_DST_ALPHA, 1, 1},
+    {GL_BLEND_EQUATION_RGB, 1, 1},
+    {GL_BLEND_EQUATION_ALPHA, 1, 1},
+    {GL_BLEND_COLOR, 4, 0},
+    {GL_DITHER, 1, 0},
+    {GL_COLOR_WRITEMASK, 4, 1},
+    {GL_DEPTH_WRITEMASK, 1, 1},
+    {GL_STENCIL_WRITEMASK, 1, 1},
+    {GL_STENCIL_BACK_WRITEMASK, 1, 1},
+    {GL_COLOR_CLEAR_VALUE, 4, 0},
+    {GL_DEPTH_CLEAR_VALUE, 1, 1},
+    {GL_STENCIL_CLEAR_VALUE, 1, 1},
+    {GL_FRAMEBUFFER_BINDING, 1, 0},
+    {GL_RENDERBUFFER_BINDING, 1, 0},
+    {GL_UNPACK_ALIGNMENT, 1, 0},
+    {GL_PACK_ALIGNMENT, 1, 0},
+    {GL_CURRENT_PROGRAM, 1, 1},
+    {GL_GENERATE_MIPMAP_HINT, 1, 0},
 };
 enum { STATES = sizeof states / sizeof states[0] };
 
@@ -67,8 +109,8 @@ static GLfloat value_of(const snapshot *s, GLenum name)
 /* Everything away from its default, so that nothing is right by chance. */
 static void disturb(void)
 {
-    static const GLenum capabilities[] = {GL_CULL_FACE, GL_POLYGON_OFFSET_FILL, GL_SCISSOR_TEST, GL_STENCIL_TEST, GL_DEPTH_TEST,
-                                          GL_BLEND};
+    static const GLenum capabilities[] = {GL_CULL_FACE,    GL_POLYGON_OFFSET_FILL, GL_SCISSOR_TEST,
+                                          GL_STENCIL_TEST, GL_DEPTH_TEST,          GL_BLEND};
 
     for (size_t i = 0; i < sizeof capabilities / sizeof capabilities[0]; i++)
         gl->glEnable(capabilities[i]);
@@ -174,7 +216,8 @@ static void the_promised_state_holds(void **state)
 
             assert_memory_equal(after.values[i], whole, sizeof whole);
         } else if (memcmp(after.values[i], wanted, sizeof after.values[i]) != 0) {
-            fail_msg("on exit state 0x%04x is %g, not %g", states[i].name, (double)after.values[i][0], (double)wanted[0]);
+            fail_msg("on exit state 0x%04x is %g, not %g", states[i].name, (double)after.values[i][0],
+                     (double)wanted[0]);
         }
     }
     for (int i = 0; i < 16; i++)
@@ -233,7 +276,8 @@ static int close_it(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_promised_state_holds), cmocka_unit_test(the_target_is_described)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_promised_state_holds),
+                                       cmocka_unit_test(the_target_is_described)};
 
     return cmocka_run_group_tests_name("state, egl", tests, open_egl, close_it) +
            cmocka_run_group_tests_name("state, osmesa", tests, open_osmesa, close_it);

@@ -34,7 +34,8 @@ static void walk_to_the_end(int *draws)
         draws[step.draw]++;
 }
 
-/* One clear, to the zfar's depth; a draw for each record, one quad between two lights; vertices are never sent in a frame. */
+/* One clear, to the zfar's depth; a draw for each record, one quad between two lights; vertices are never sent in a
+ * frame. */
 static void a_frame_draws_what_its_plan_says(void **state)
 {
     int draws[4] = {0};

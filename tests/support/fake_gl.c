@@ -21,16 +21,16 @@ static void note(const char *name)
         calls[call_count++] = name;
 }
 
-#define GN_GL_PROC(name, parameters, arguments)                                                                                \
-    static void GL_APIENTRY null_##name parameters                                                                             \
-    {                                                                                                                          \
-        note(#name);                                                                                                           \
+#define GN_GL_PROC(name, parameters, arguments)                                                                        \
+    static void GL_APIENTRY null_##name parameters                                                                     \
+    {                                                                                                                  \
+        note(#name);                                                                                                   \
     }
-#define GN_GL_FUNC(type, name, parameters, arguments)                                                                          \
-    static type GL_APIENTRY null_##name parameters                                                                             \
-    {                                                                                                                          \
-        note(#name);                                                                                                           \
-        return (type)0;                                                                                                        \
+#define GN_GL_FUNC(type, name, parameters, arguments)                                                                  \
+    static type GL_APIENTRY null_##name parameters                                                                     \
+    {                                                                                                                  \
+        note(#name);                                                                                                   \
+        return (type)0;                                                                                                \
     }
 #include "gl_funcs.h"
 #undef GN_GL_PROC
@@ -111,13 +111,13 @@ gn_proc fake_gl_get_proc(void *user, const char *name)
         const char *name;
         gn_proc function;
     } special[] = {
-        {"glCreateShader", (gn_proc)make_shader},     {"glCreateProgram", (gn_proc)make_program},
-        {"glDeleteShader", (gn_proc)drop_object},     {"glDeleteProgram", (gn_proc)drop_object},
-        {"glGetShaderiv", (gn_proc)status},           {"glGetProgramiv", (gn_proc)status},
-        {"glGetShaderInfoLog", (gn_proc)log_of},      {"glGetProgramInfoLog", (gn_proc)log_of},
-        {"glGenBuffers", (gn_proc)make_buffers},      {"glDeleteBuffers", (gn_proc)drop_buffers},
-        {"glGetIntegerv", (gn_proc)integers},         {"glGetError", (gn_proc)error},
-        {"glDrawElements", (gn_proc)elements},        {"glClearDepthf", (gn_proc)clear_depth},
+        {"glCreateShader", (gn_proc)make_shader}, {"glCreateProgram", (gn_proc)make_program},
+        {"glDeleteShader", (gn_proc)drop_object}, {"glDeleteProgram", (gn_proc)drop_object},
+        {"glGetShaderiv", (gn_proc)status},       {"glGetProgramiv", (gn_proc)status},
+        {"glGetShaderInfoLog", (gn_proc)log_of},  {"glGetProgramInfoLog", (gn_proc)log_of},
+        {"glGenBuffers", (gn_proc)make_buffers},  {"glDeleteBuffers", (gn_proc)drop_buffers},
+        {"glGetIntegerv", (gn_proc)integers},     {"glGetError", (gn_proc)error},
+        {"glDrawElements", (gn_proc)elements},    {"glClearDepthf", (gn_proc)clear_depth},
     };
 
     if (fake_gl_missing && strcmp(name, fake_gl_missing) == 0)
@@ -125,8 +125,8 @@ gn_proc fake_gl_get_proc(void *user, const char *name)
     for (size_t i = 0; i < sizeof special / sizeof special[0]; i++)
         if (strcmp(special[i].name, name) == 0)
             return special[i].function;
-#define GN_GL_PROC(function, parameters, arguments)                                                                            \
-    if (strcmp(name, #function) == 0)                                                                                          \
+#define GN_GL_PROC(function, parameters, arguments)                                                                    \
+    if (strcmp(name, #function) == 0)                                                                                  \
         return (gn_proc)null_##function;
 #define GN_GL_FUNC(type, function, parameters, arguments) GN_GL_PROC(function, parameters, arguments)
 #include "gl_funcs.h"

@@ -15,7 +15,8 @@ gn_proc fake_gl_get_proc(void *user, const char *name);
 size_t fake_gl_calls(const char *name);
 const char *fake_gl_call(size_t n);
 
-/* What it does badly: a function that is not found; shaders that do not compile; every glGetError says out of memory. */
+/* What it does badly: a function that is not found; shaders that do not compile; every glGetError says out of
+ * memory. */
 extern const char *fake_gl_missing;
 extern int fake_gl_refuses_shaders, fake_gl_out_of_memory;
 /* Names that are generated and not deleted. */

@@ -64,13 +64,15 @@ void test_add_triangle(test_mesh *m, uint32_t a, uint32_t b, uint32_t c)
 
 void test_add_box(test_mesh *m, const float low[3], const float high[3], int inward)
 {
-    static const uint8_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    static const uint8_t faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                        {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
     const uint32_t first = (uint32_t)m->vertex_count;
 
     for (int i = 0; i < 8; i++)
         test_add_vertex(m, i & 1 ? high[0] : low[0], i & 2 ? high[1] : low[1], i & 4 ? high[2] : low[2]);
     for (int f = 0; f < 6; f++) {
-        const uint32_t a = first + faces[f][0], b = first + faces[f][1], c = first + faces[f][2], d = first + faces[f][3];
+        const uint32_t a = first + faces[f][0], b = first + faces[f][1], c = first + faces[f][2],
+                       d = first + faces[f][3];
 
         test_add_triangle(m, a, inward ? c : b, inward ? b : c);
         test_add_triangle(m, a, inward ? d : c, inward ? c : d);

@@ -2,16 +2,19 @@
  *
  *     truth_table [--size WxH] [--drivers LIST] [--pixels] SCENES_DIR [SCENE...]
  *
- * SCENES_DIR holds the .gltf files and scenes.txt, which says of each scene whether z-pass is right there (zpass, nozpass) and
- * whether a slow rasteriser draws it (small, large). Drivers: llvmpipe and softpipe through EGL, osmesa; softpipe takes small scenes.
+ * SCENES_DIR holds the .gltf files and scenes.txt, which says of each scene whether z-pass is right there (zpass,
+ * nozpass) and whether a slow rasteriser draws it (small, large). Drivers: llvmpipe and softpipe through EGL, osmesa;
+ * softpipe takes small scenes.
  *
- * A rasteriser that draws a shared edge twice, or not at all, at some pixel cannot count volumes there (Everitt 2002, section
- * 3.1, asks for watertight rasterisation). softpipe is such: where its number of fragments at a wrong pixel is not llvmpipe's,
- * the pixel stands under "cracks" and not under "wrong", as long as there are no more of them than one in 10,000.
+ * A rasteriser that draws a shared edge twice, or not at all, at some pixel cannot count volumes there (Everitt 2002,
+ * section 3.1, asks for watertight rasterisation). softpipe is such: where its number of fragments at a wrong pixel is
+ * not llvmpipe's, the pixel stands under "cracks" and not under "wrong", as long as there are no more of them than one
+ * in 10,000.
  *
- * The truth of a light is traced once; then each driver draws in a process of its own, since Mesa picks its rasteriser once a
- * process, into memory that all share. Fails when a certain pixel is wrong where the method must be right, when fewer than 80 %
- * of the pixels are certain, or when the masks of llvmpipe and osmesa differ in a single byte. */
+ * The truth of a light is traced once; then each driver draws in a process of its own, since Mesa picks its
+ * rasteriser once a process, into memory that all share. Fails when a certain pixel is wrong where the method must
+ * be right, when fewer than 80 % of the pixels are certain, or when the masks of llvmpipe and osmesa differ in a
+ * single byte. */
 #define _DEFAULT_SOURCE
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,8 +49,8 @@ typedef struct job {
     uint32_t width, height;
     size_t lights;
     uint8_t *lit, *visible, *classes; /* [lights][pixels] of the truth */
-    uint8_t *drawn;  /* shared: [DRIVERS][METHODS][MOST_LIGHTS][pixels]: lit 1, visible 2 */
-    uint8_t *layers; /* shared, the same: fragments of volumes and surfaces, as one number */
+    uint8_t *drawn;                   /* shared: [DRIVERS][METHODS][MOST_LIGHTS][pixels]: lit 1, visible 2 */
+    uint8_t *layers;                  /* shared, the same: fragments of volumes and surfaces, as one number */
 } job;
 
 static size_t pixels_of(const job *j)
@@ -151,10 +154,10 @@ static int compare(const job *j, int d, int m, size_t light)
         cracks = 0;
     }
     few = certain * 10 < n * 8;
-    printf("%-18s %-9s %-6s %5lu %8.2f%% %7lu %7lu %7lu%s%s\n", j->name, drivers[d].name, gn_method_describe(methods[m])->name,
-           (unsigned long)light, 100.0 * (double)certain / (double)n, (unsigned long)depth_limited, (unsigned long)wrong,
-           (unsigned long)cracks, must_be_right ? (wrong ? "  WRONG" : "") : "  (not for this view)",
-           few ? "  TOO FEW CERTAIN" : "");
+    printf("%-18s %-9s %-6s %5lu %8.2f%% %7lu %7lu %7lu%s%s\n", j->name, drivers[d].name,
+           gn_method_describe(methods[m])->name, (unsigned long)light, 100.0 * (double)certain / (double)n,
+           (unsigned long)depth_limited, (unsigned long)wrong, (unsigned long)cracks,
+           must_be_right ? (wrong ? "  WRONG" : "") : "  (not for this view)", few ? "  TOO FEW CERTAIN" : "");
     return few || (must_be_right && wrong);
 }
 
@@ -239,8 +242,8 @@ int main(int count, char **arguments)
     list = fopen(path, "r");
     if (!list)
         return fprintf(stderr, "truth_table: %s: cannot be read\n", path), 1;
-    printf("%-18s %-9s %-6s %5s %9s %7s %7s %7s   (%ux%u)\n", "scene", "driver", "method", "light", "certain", "depth", "wrong", "cracks",
-           width, height);
+    printf("%-18s %-9s %-6s %5s %9s %7s %7s %7s   (%ux%u)\n", "scene", "driver", "method", "light", "certain", "depth",
+           "wrong", "cracks", width, height);
     while (fgets(line, sizeof line, list)) {
         char zpass[16], size[16];
         job j;

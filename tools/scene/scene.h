@@ -12,7 +12,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define SCENE_NONE (-1)
+#define SCENE_NONE    (-1)
 #define SCENE_MESSAGE 512 /* bytes in a message */
 
 typedef enum scene_alpha { SCENE_OPAQUE, SCENE_MASK, SCENE_BLEND } scene_alpha;
@@ -31,7 +31,7 @@ typedef struct scene_material {
     double base_color[4]; /* linear factor */
     double metallic, roughness;
     double emissive[3];
-    int texture;          /* of base colour, index into textures, or SCENE_NONE */
+    int texture; /* of base colour, index into textures, or SCENE_NONE */
     scene_alpha alpha;
     double alpha_cutoff;
     int double_sided;
@@ -67,9 +67,9 @@ typedef struct scene_instance {
 typedef struct scene_light {
     int node; /* or SCENE_NONE for the one that scene_ensure_view() placed */
     scene_light_kind kind;
-    double color[3];   /* linear */
-    double intensity;  /* candela (point, spot) or lux (directional) */
-    double range;      /* 0: unlimited */
+    double color[3];     /* linear */
+    double intensity;    /* candela (point, spot) or lux (directional) */
+    double range;        /* 0: unlimited */
     double inner, outer; /* cone angles from the axis, radians */
     double position[3];  /* world, set by scene_pose(); 0 for directional */
     double towards[3];   /* world unit vector, against the direction in which the light shines; set by scene_pose() */
@@ -78,10 +78,10 @@ typedef struct scene_light {
 typedef struct scene_camera {
     int node; /* or SCENE_NONE for the one that scene_ensure_view() placed */
     int orthographic;
-    double yfov;       /* radians, whole angle */
+    double yfov; /* radians, whole angle */
     double xmag, ymag;
     double znear, zfar; /* zfar 0: infinite */
-    double world[16];  /* camera to world, orthonormal, right-handed, scale removed; set by scene_pose() */
+    double world[16];   /* camera to world, orthonormal, right-handed, scale removed; set by scene_pose() */
 } scene_camera;
 
 typedef struct scene_animation scene_animation; /* private to the reader */
@@ -103,7 +103,7 @@ typedef struct scene {
     scene_node *nodes;
     size_t node_count;
     scene_animation *animation;
-    double duration;                  /* seconds; 0: nothing moves */
+    double duration;                     /* seconds; 0: nothing moves */
     double bounds_min[3], bounds_max[3]; /* of all instances at the last scene_pose(), world */
 } scene;
 
@@ -120,8 +120,9 @@ void scene_pose(scene *s, double seconds);
  * nothing. Returns 1, or 0 when memory ran out. */
 int scene_ensure_view(scene *s, double aspect, void (*warn)(const char *line));
 
-/* Alpha of a material at a texture coordinate and vertex alpha, as the stage's fragment shader computes it: base factor
- * times vertex alpha times the texture's alpha, sampled linearly (or nearest, as the texture says) in its first level. */
+/* Alpha of a material at a texture coordinate and vertex alpha, as the stage's fragment shader computes it: base
+ * factor times vertex alpha times the texture's alpha, sampled linearly (or nearest, as the texture says) in its
+ * first level. */
 double scene_alpha_at(const scene *s, int material, const double uv[2], double vertex_alpha);
 
 void scene_free(scene *s);

@@ -1,4 +1,5 @@
-/* counted_gl.c - wrappers made from the function list: those named below count, the others are passed through as they are.
+/* counted_gl.c - wrappers made from the function list: those named below count, the others are passed through as they
+ * are.
  *
  * GL functions carry no user pointer, so the counters are the process's: a tool's business, never the library's. */
 #include "counted_gl.h"
@@ -44,61 +45,63 @@ static void GL_APIENTRY counted_glBufferSubData(GLenum target, GLintptr offset, 
     real.glBufferSubData(target, offset, size, data);
 }
 
-static void GL_APIENTRY counted_glTexImage2D(GLenum target, GLint level, GLint internal_format, GLsizei width, GLsizei height,
-                                             GLint border, GLenum format, GLenum type, const void *pixels)
+static void GL_APIENTRY counted_glTexImage2D(GLenum target, GLint level, GLint internal_format, GLsizei width,
+                                             GLsizei height, GLint border, GLenum format, GLenum type,
+                                             const void *pixels)
 {
     counts.bytes_sent += pixels ? (uint64_t)width * (uint64_t)height * texel_bytes(format, type) : 0;
     real.glTexImage2D(target, level, internal_format, width, height, border, format, type, pixels);
 }
 
-#define UNIFORMS(F)                                                                                                            \
-    F(glUniform1f, (GLint l, GLfloat v), (l, v), 4)                                                                            \
-    F(glUniform1i, (GLint l, GLint v), (l, v), 4)                                                                              \
-    F(glUniform2fv, (GLint l, GLsizei n, const GLfloat *v), (l, n, v), 8 * (uint64_t)n)                                        \
-    F(glUniform3fv, (GLint l, GLsizei n, const GLfloat *v), (l, n, v), 12 * (uint64_t)n)                                       \
-    F(glUniform4fv, (GLint l, GLsizei n, const GLfloat *v), (l, n, v), 16 * (uint64_t)n)                                       \
-    F(glUniformMatrix3fv, (GLint l, GLsizei n, GLboolean t, const GLfloat *v), (l, n, t, v), 36 * (uint64_t)n)                 \
+#define UNIFORMS(F)                                                                                                    \
+    F(glUniform1f, (GLint l, GLfloat v), (l, v), 4)                                                                    \
+    F(glUniform1i, (GLint l, GLint v), (l, v), 4)                                                                      \
+    F(glUniform2fv, (GLint l, GLsizei n, const GLfloat *v), (l, n, v), 8 * (uint64_t)n)                                \
+    F(glUniform3fv, (GLint l, GLsizei n, const GLfloat *v), (l, n, v), 12 * (uint64_t)n)                               \
+    F(glUniform4fv, (GLint l, GLsizei n, const GLfloat *v), (l, n, v), 16 * (uint64_t)n)                               \
+    F(glUniformMatrix3fv, (GLint l, GLsizei n, GLboolean t, const GLfloat *v), (l, n, t, v), 36 * (uint64_t)n)         \
     F(glUniformMatrix4fv, (GLint l, GLsizei n, GLboolean t, const GLfloat *v), (l, n, t, v), 64 * (uint64_t)n)
 
-#define STATES(F)                                                                                                              \
-    F(glActiveTexture, (GLenum a), (a), 0)                                                                                     \
-    F(glBindBuffer, (GLenum a, GLuint b), (a, b), 0)                                                                           \
-    F(glBindTexture, (GLenum a, GLuint b), (a, b), 0)                                                                          \
-    F(glBlendEquation, (GLenum a), (a), 0)                                                                                     \
-    F(glBlendFunc, (GLenum a, GLenum b), (a, b), 0)                                                                            \
-    F(glBlendFuncSeparate, (GLenum a, GLenum b, GLenum c, GLenum d), (a, b, c, d), 0)                                          \
-    F(glClearColor, (GLfloat a, GLfloat b, GLfloat c, GLfloat d), (a, b, c, d), 0)                                             \
-    F(glClearDepthf, (GLfloat a), (a), 0)                                                                                      \
-    F(glClearStencil, (GLint a), (a), 0)                                                                                       \
-    F(glColorMask, (GLboolean a, GLboolean b, GLboolean c, GLboolean d), (a, b, c, d), 0)                                      \
-    F(glCullFace, (GLenum a), (a), 0)                                                                                          \
-    F(glDepthFunc, (GLenum a), (a), 0)                                                                                         \
-    F(glDepthMask, (GLboolean a), (a), 0)                                                                                      \
-    F(glDisable, (GLenum a), (a), 0)                                                                                           \
-    F(glDisableVertexAttribArray, (GLuint a), (a), 0)                                                                          \
-    F(glEnable, (GLenum a), (a), 0)                                                                                            \
-    F(glEnableVertexAttribArray, (GLuint a), (a), 0)                                                                           \
-    F(glFrontFace, (GLenum a), (a), 0)                                                                                         \
-    F(glPolygonOffset, (GLfloat a, GLfloat b), (a, b), 0)                                                                      \
-    F(glScissor, (GLint a, GLint b, GLsizei c, GLsizei d), (a, b, c, d), 0)                                                    \
-    F(glStencilFuncSeparate, (GLenum a, GLenum b, GLint c, GLuint d), (a, b, c, d), 0)                                         \
-    F(glStencilMask, (GLuint a), (a), 0)                                                                                       \
-    F(glStencilOpSeparate, (GLenum a, GLenum b, GLenum c, GLenum d), (a, b, c, d), 0)                                          \
-    F(glUseProgram, (GLuint a), (a), 0)                                                                                        \
-    F(glVertexAttribPointer, (GLuint a, GLint b, GLenum c, GLboolean d, GLsizei e, const void *f), (a, b, c, d, e, f), 0)      \
+#define STATES(F)                                                                                                      \
+    F(glActiveTexture, (GLenum a), (a), 0)                                                                             \
+    F(glBindBuffer, (GLenum a, GLuint b), (a, b), 0)                                                                   \
+    F(glBindTexture, (GLenum a, GLuint b), (a, b), 0)                                                                  \
+    F(glBlendEquation, (GLenum a), (a), 0)                                                                             \
+    F(glBlendFunc, (GLenum a, GLenum b), (a, b), 0)                                                                    \
+    F(glBlendFuncSeparate, (GLenum a, GLenum b, GLenum c, GLenum d), (a, b, c, d), 0)                                  \
+    F(glClearColor, (GLfloat a, GLfloat b, GLfloat c, GLfloat d), (a, b, c, d), 0)                                     \
+    F(glClearDepthf, (GLfloat a), (a), 0)                                                                              \
+    F(glClearStencil, (GLint a), (a), 0)                                                                               \
+    F(glColorMask, (GLboolean a, GLboolean b, GLboolean c, GLboolean d), (a, b, c, d), 0)                              \
+    F(glCullFace, (GLenum a), (a), 0)                                                                                  \
+    F(glDepthFunc, (GLenum a), (a), 0)                                                                                 \
+    F(glDepthMask, (GLboolean a), (a), 0)                                                                              \
+    F(glDisable, (GLenum a), (a), 0)                                                                                   \
+    F(glDisableVertexAttribArray, (GLuint a), (a), 0)                                                                  \
+    F(glEnable, (GLenum a), (a), 0)                                                                                    \
+    F(glEnableVertexAttribArray, (GLuint a), (a), 0)                                                                   \
+    F(glFrontFace, (GLenum a), (a), 0)                                                                                 \
+    F(glPolygonOffset, (GLfloat a, GLfloat b), (a, b), 0)                                                              \
+    F(glScissor, (GLint a, GLint b, GLsizei c, GLsizei d), (a, b, c, d), 0)                                            \
+    F(glStencilFuncSeparate, (GLenum a, GLenum b, GLint c, GLuint d), (a, b, c, d), 0)                                 \
+    F(glStencilMask, (GLuint a), (a), 0)                                                                               \
+    F(glStencilOpSeparate, (GLenum a, GLenum b, GLenum c, GLenum d), (a, b, c, d), 0)                                  \
+    F(glUseProgram, (GLuint a), (a), 0)                                                                                \
+    F(glVertexAttribPointer, (GLuint a, GLint b, GLenum c, GLboolean d, GLsizei e, const void *f), (a, b, c, d, e, f), \
+      0)                                                                                                               \
     F(glViewport, (GLint a, GLint b, GLsizei c, GLsizei d), (a, b, c, d), 0)
 
-#define WRAP_UNIFORM(name, parameters, arguments, bytes)                                                                       \
-    static void GL_APIENTRY counted_##name parameters                                                                          \
-    {                                                                                                                          \
-        counts.bytes_sent += bytes;                                                                                            \
-        real.name arguments;                                                                                                   \
+#define WRAP_UNIFORM(name, parameters, arguments, bytes)                                                               \
+    static void GL_APIENTRY counted_##name parameters                                                                  \
+    {                                                                                                                  \
+        counts.bytes_sent += bytes;                                                                                    \
+        real.name arguments;                                                                                           \
     }
-#define WRAP_STATE(name, parameters, arguments, bytes)                                                                         \
-    static void GL_APIENTRY counted_##name parameters                                                                          \
-    {                                                                                                                          \
-        counts.state_changes++;                                                                                                \
-        real.name arguments;                                                                                                   \
+#define WRAP_STATE(name, parameters, arguments, bytes)                                                                 \
+    static void GL_APIENTRY counted_##name parameters                                                                  \
+    {                                                                                                                  \
+        counts.state_changes++;                                                                                        \
+        real.name arguments;                                                                                           \
     }
 UNIFORMS(WRAP_UNIFORM)
 STATES(WRAP_STATE)
@@ -118,8 +121,8 @@ gn_proc counted_get_proc(void *user, const char *name)
     (void)user;
     if (!found)
         return NULL;
-#define FIND(function, parameters, arguments, bytes)                                                                           \
-    if (strcmp(name, #function) == 0)                                                                                          \
+#define FIND(function, parameters, arguments, bytes)                                                                   \
+    if (strcmp(name, #function) == 0)                                                                                  \
         return (gn_proc)counted_##function;
     FIND(glDrawArrays, , , )
     FIND(glDrawElements, , , )

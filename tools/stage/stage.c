@@ -52,7 +52,8 @@ static int refuse(stage **out, stage *s, int status)
 
 int stage_open(stage **out, scene *given, const stage_options *options, char message[SCENE_MESSAGE])
 {
-    const platform_desc wanted = {options->width, options->height, 8, 8, 8, 8, options->depth_bits, options->stencil_bits};
+    const platform_desc wanted = {options->width,      options->height,      8, 8, 8, 8,
+                                  options->depth_bits, options->stencil_bits};
     stage *s = calloc(1, sizeof *s);
     gn_port port = gn_port_libc();
     char why[PLATFORM_MESSAGE];
@@ -69,7 +70,8 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
     s->exposure = options->exposure > 0.0 ? options->exposure : default_exposure(s);
     s->platform = platform_open(options->platform, &wanted, why);
     if (!s->platform) {
-        snprintf(message, SCENE_MESSAGE, "no context of %ux%u: %.400s", (unsigned)options->width, (unsigned)options->height, why);
+        snprintf(message, SCENE_MESSAGE, "no context of %ux%u: %.400s", (unsigned)options->width,
+                 (unsigned)options->height, why);
         return refuse(out, s, 3);
     }
     port.user = &s->allocations;
@@ -190,7 +192,8 @@ static unsigned flags_of(const stage *s, const scene_instance *instance, int cas
     return flags;
 }
 
-int stage_plan(stage *s, gn_method method, uint32_t first_light, uint32_t light_count, int casting, char message[SCENE_MESSAGE])
+int stage_plan(stage *s, gn_method method, uint32_t first_light, uint32_t light_count, int casting,
+               char message[SCENE_MESSAGE])
 {
     gn_scene frame;
     gn_result result;

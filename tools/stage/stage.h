@@ -1,7 +1,8 @@
-/* stage.h - the demo stage: a host of the library that draws glTF scenes with shaders of its own, under the library's masks.
+/* stage.h - the demo stage: a host of the library that draws glTF scenes with shaders of its own, under the library's
+ * masks.
  *
- * It owns a platform's context, the GL objects of a scene, and the memory of the plan. It holds no shadow logic: it asks for a
- * plan and draws what the walk tells it to. */
+ * It owns a platform's context, the GL objects of a scene, and the memory of the plan. It holds no shadow logic: it
+ * asks for a plan and draws what the walk tells it to. */
 #ifndef STAGE_H
 #define STAGE_H
 #include "gnomon_gles.h"
@@ -12,12 +13,19 @@
 
 typedef struct stage_program {
     GLuint name; /* 0: not made yet */
-    GLint clip, world, normal, base, flat, ambient, emits, emissive, cutoff, shininess, specular, metallic, two_sided, texture;
+    GLint clip, world, normal, base, flat, ambient, emits, emissive, cutoff, shininess, specular, metallic, two_sided,
+        texture;
     GLint light_position, light_color, light_axis, light_cone;
 } stage_program;
 
 /* What a program does beyond placing vertices: an index into stage.programs. */
-enum { STAGE_TEXTURED = 1, STAGE_CUT = 2, STAGE_FLAT = 4, STAGE_LIGHT_SHIFT = 3, STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 3 };
+enum {
+    STAGE_TEXTURED = 1,
+    STAGE_CUT = 2,
+    STAGE_FLAT = 4,
+    STAGE_LIGHT_SHIFT = 3,
+    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 3
+};
 
 /* Part of a range that 16-bit indices reach. */
 typedef struct stage_batch {
@@ -73,16 +81,17 @@ typedef struct stage_options {
     int depth_bits, stencil_bits;
 } stage_options;
 
-/* Opens a context and uploads the scene. Returns 0, or an exit status of the command (1 or 3) with a message; *out is then
- * NULL. The scene stays the caller's and must outlive the stage. */
+/* Opens a context and uploads the scene. Returns 0, or an exit status of the command (1 or 3) with a message; *out
+ * is then NULL. The scene stays the caller's and must outlive the stage. */
 int stage_open(stage **out, scene *s, const stage_options *options, char message[SCENE_MESSAGE]);
 void stage_close(stage *s);
 
-/* Poses scene, lights and camera: seconds into the animation, the lights turned about the vertical axis through the centre. */
+/* Poses scene, lights and camera: seconds into the animation, the lights turned about the vertical axis through the
+ * centre. */
 void stage_pose(stage *s, double seconds, double spin_degrees);
 
-/* Plans the lights first .. first + count - 1. casting 0: the same passes, and no volumes. Returns 0, or an exit status of the
- * command (1 or 3) with a message. */
+/* Plans the lights first .. first + count - 1. casting 0: the same passes, and no volumes. Returns 0, or an exit
+ * status of the command (1 or 3) with a message. */
 int stage_plan(stage *s, gn_method method, uint32_t first_light, uint32_t light_count, int casting,
                char message[SCENE_MESSAGE]);
 
@@ -101,12 +110,12 @@ void stage_draw_plain(stage *s);
 void stage_show_volumes(stage *s);
 void stage_show_silhouettes(stage *s);
 
-/* How many fragments were rasterised at each pixel, up to 255: red of the plan's volumes, green of the scene's surfaces.
- * Spoils the frame just drawn. */
+/* How many fragments were rasterised at each pixel, up to 255: red of the plan's volumes, green of the scene's
+ * surfaces. Spoils the frame just drawn. */
 void stage_draw_layers(stage *s);
 
-/* Counts fragments of the plan's volumes in the frame that was just drawn, spoiling its colours: all that are rasterised, and
- * those in front of what is seen (they pass the depth test). 1, or 0 when memory or the GL failed. */
+/* Counts fragments of the plan's volumes in the frame that was just drawn, spoiling its colours: all that are
+ * rasterised, and those in front of what is seen (they pass the depth test). 1, or 0 when memory or the GL failed. */
 int stage_count_fragments(stage *s, uint64_t *rasterised, uint64_t *passed);
 
 /* ---- stage_draw.c, used by the walks ---- */
@@ -114,16 +123,16 @@ int stage_count_fragments(stage *s, uint64_t *rasterised, uint64_t *passed);
 typedef enum stage_pass { STAGE_PASS_SOLID, STAGE_PASS_BLEND } stage_pass;
 
 typedef struct stage_look {
-    int ambient;          /* with ambient and emitted light */
+    int ambient;                       /* with ambient and emitted light */
     uint32_t first_light, light_count; /* in the scene */
-    const float *flat;    /* one colour instead, or NULL */
-    int receivers;        /* 1: objects that receive; 0: the rest; -1: all */
-    int facing_light;     /* only triangles whose seen side looks at this light; -1: all */
+    const float *flat;                 /* one colour instead, or NULL */
+    int receivers;                     /* 1: objects that receive; 0: the rest; -1: all */
+    int facing_light;                  /* only triangles whose seen side looks at this light; -1: all */
 } stage_look;
 
 void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look);
-int stage_upload(stage *s, char message[SCENE_MESSAGE]);      /* stage_upload.c */
-void stage_release(stage *s);                                 /* stage_upload.c */
-stage_program *stage_use(stage *s, unsigned kind);            /* stage_program.c; NULL when a driver refuses it */
+int stage_upload(stage *s, char message[SCENE_MESSAGE]); /* stage_upload.c */
+void stage_release(stage *s);                            /* stage_upload.c */
+stage_program *stage_use(stage *s, unsigned kind);       /* stage_program.c; NULL when a driver refuses it */
 stage_program *stage_use_lines(stage *s);
 #endif

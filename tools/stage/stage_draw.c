@@ -1,7 +1,7 @@
 /* stage_draw.c - draws the scene's objects in one of several looks, with whatever masks and tests the library has set.
  *
- * An object's triangles are drawn in the same order of vertices in every pass, from the same buffer, with the same matrix: their
- * depths are the same to the last bit. */
+ * An object's triangles are drawn in the same order of vertices in every pass, from the same buffer, with the same
+ * matrix: their depths are the same to the last bit. */
 #include "stage.h"
 
 #include <math.h>
@@ -33,9 +33,11 @@ static void set_lights(stage *s, const stage_program *p, uint32_t first, uint32_
 static void set_material(stage *s, const stage_program *p, const scene_material *m, const stage_look *look)
 {
     const gn_gl *gl = s->gl;
-    const float base[4] = {(float)m->base_color[0], (float)m->base_color[1], (float)m->base_color[2], (float)m->base_color[3]};
+    const float base[4] = {(float)m->base_color[0], (float)m->base_color[1], (float)m->base_color[2],
+                           (float)m->base_color[3]};
     const float emissive[3] = {(float)m->emissive[0], (float)m->emissive[1], (float)m->emissive[2]};
-    const float ambient[3] = {look->ambient ? AMBIENT : 0.0f, look->ambient ? AMBIENT : 0.0f, look->ambient ? AMBIENT : 0.0f};
+    const float ambient[3] = {look->ambient ? AMBIENT : 0.0f, look->ambient ? AMBIENT : 0.0f,
+                              look->ambient ? AMBIENT : 0.0f};
     const float roughness = (float)fmax(m->roughness, 0.1), gloss = 1.0f - roughness;
     const float specular[3] = {gloss, gloss, gloss}; /* what is rough spreads its highlight until none is seen */
 
@@ -57,7 +59,8 @@ static void set_material(stage *s, const stage_program *p, const scene_material 
     }
 }
 
-/* World space from the eye, and normals: the inverse transposed, by cofactors, so that a flattened object has some too. */
+/* World space from the eye, and normals: the inverse transposed, by cofactors, so that a flattened object has some
+ * too. */
 static void set_object(stage *s, const stage_program *p, const scene_instance *instance, const gn_plan_object *object)
 {
     const float *centre = gn_mesh_get_info(object->mesh)->centre;
@@ -173,7 +176,8 @@ static double distance_of(const stage *s, size_t index)
     const scene_instance *instance = &s->scene->instances[index];
     const double *eye = s->scene->camera.world + 12, *m = instance->world;
 
-    return (m[12] - eye[0]) * (m[12] - eye[0]) + (m[13] - eye[1]) * (m[13] - eye[1]) + (m[14] - eye[2]) * (m[14] - eye[2]);
+    return (m[12] - eye[0]) * (m[12] - eye[0]) + (m[13] - eye[1]) * (m[13] - eye[1]) +
+           (m[14] - eye[2]) * (m[14] - eye[2]);
 }
 
 static int is_blended(const stage *s, size_t index)

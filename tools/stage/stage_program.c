@@ -11,8 +11,8 @@
 
 static GLuint compile(const gn_gl *gl, GLenum type, const char *defines, const char *text)
 {
-    const char *const parts[3] = {"#version 100\n",
-                                  type == GL_VERTEX_SHADER ? "precision highp float;\n" GN_GLSL_POSITION : defines, text};
+    const char *const parts[3] = {
+        "#version 100\n", type == GL_VERTEX_SHADER ? "precision highp float;\n" GN_GLSL_POSITION : defines, text};
     const GLuint shader = gl->glCreateShader(type);
     GLint ok = 0;
 
@@ -32,7 +32,8 @@ static GLuint compile(const gn_gl *gl, GLenum type, const char *defines, const c
 
 static GLuint link(const gn_gl *gl, const char *defines, const char *vertex, const char *fragment)
 {
-    const GLuint v = compile(gl, GL_VERTEX_SHADER, defines, vertex), f = compile(gl, GL_FRAGMENT_SHADER, defines, fragment);
+    const GLuint v = compile(gl, GL_VERTEX_SHADER, defines, vertex),
+                 f = compile(gl, GL_FRAGMENT_SHADER, defines, fragment);
     GLuint program = v && f ? gl->glCreateProgram() : 0;
     GLint ok = 0;
 
@@ -67,11 +68,24 @@ static void locate(const gn_gl *gl, stage_program *p)
         GLint *at;
         const char *name;
     } uniforms[] = {
-        {&p->clip, "u_clip"}, {&p->world, "u_world"}, {&p->normal, "u_normal"}, {&p->base, "u_base"}, {&p->flat, "u_flat"},
-        {&p->ambient, "u_ambient"}, {&p->emits, "u_emits"}, {&p->emissive, "u_emissive"}, {&p->cutoff, "u_cutoff"},
-        {&p->shininess, "u_shininess"}, {&p->specular, "u_specular"}, {&p->metallic, "u_metallic"},
-        {&p->two_sided, "u_two_sided"}, {&p->texture, "u_texture"}, {&p->light_position, "u_light_position"},
-        {&p->light_color, "u_light_color"}, {&p->light_axis, "u_light_axis"}, {&p->light_cone, "u_light_cone"},
+        {&p->clip, "u_clip"},
+        {&p->world, "u_world"},
+        {&p->normal, "u_normal"},
+        {&p->base, "u_base"},
+        {&p->flat, "u_flat"},
+        {&p->ambient, "u_ambient"},
+        {&p->emits, "u_emits"},
+        {&p->emissive, "u_emissive"},
+        {&p->cutoff, "u_cutoff"},
+        {&p->shininess, "u_shininess"},
+        {&p->specular, "u_specular"},
+        {&p->metallic, "u_metallic"},
+        {&p->two_sided, "u_two_sided"},
+        {&p->texture, "u_texture"},
+        {&p->light_position, "u_light_position"},
+        {&p->light_color, "u_light_color"},
+        {&p->light_axis, "u_light_axis"},
+        {&p->light_cone, "u_light_cone"},
     };
 
     for (size_t i = 0; i < sizeof uniforms / sizeof uniforms[0]; i++)

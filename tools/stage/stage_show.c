@@ -1,10 +1,9 @@
-/* stage_show.c - makes visible what shadows are made of, and counts what it costs: volumes and silhouettes over the frame
- * (McGuire's purple volumes), fragments by adding 1/255 for each. */
+/* stage_show.c - makes visible what shadows are made of, and counts what it costs: volumes and silhouettes over the
+ * frame (McGuire's purple volumes), fragments by adding 1/255 for each. */
 #include "stage.h"
 
 #include <stdlib.h>
 #include <string.h>
-
 
 static void over_the_frame(stage *s, GLenum source, GLenum destination)
 {
@@ -123,7 +122,8 @@ static uint64_t count_records(stage *s, uint32_t first, uint32_t count, uint8_t 
         most = pixels[4 * i] > most ? pixels[4 * i] : most;
     }
     if (most == 255 && count > 1)
-        return count_records(s, first, count / 2, pixels) + count_records(s, first + count / 2, count - count / 2, pixels);
+        return count_records(s, first, count / 2, pixels) +
+               count_records(s, first + count / 2, count - count / 2, pixels);
     return sum;
 }
 

@@ -1,14 +1,14 @@
 /* stage_upload.c - puts a scene into GL: meshes as the library and the stage's shaders want them, and textures.
  *
- * Vertices are sent less the mesh's centre, by plain float subtraction: exactly the positions that the library's volumes have.
- * Each range is cut into batches that 16-bit indices reach, in the order of its triangles. */
+ * Vertices are sent less the mesh's centre, by plain float subtraction: exactly the positions that the library's
+ * volumes have. Each range is cut into batches that 16-bit indices reach, in the order of its triangles. */
 #include "stage.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define FLOATS 12 /* position 3, normal 3, uv 2, colour 4 */
+#define FLOATS         12 /* position 3, normal 3, uv 2, colour 4 */
 #define BATCH_VERTICES 65535u
 
 typedef struct packer {
@@ -97,8 +97,8 @@ static int upload_mesh(stage *s, const scene_mesh *m, stage_mesh *out, char mess
     ok = p.vertices && p.indices && p.stamp && p.local && out->batches;
     if (ok) {
         for (size_t r = 0; r < m->range_count; r++)
-            out->batch_count += pack_range(&p, m, &m->ranges[r], gn_mesh_get_info(out->mesh)->centre,
-                                           out->batches + out->batch_count);
+            out->batch_count +=
+                pack_range(&p, m, &m->ranges[r], gn_mesh_get_info(out->mesh)->centre, out->batches + out->batch_count);
         send(s->gl, GL_ARRAY_BUFFER, &out->vertices, p.vertices, (size_t)p.vertex_count * FLOATS * sizeof(float));
         send(s->gl, GL_ELEMENT_ARRAY_BUFFER, &out->indices, p.indices, (size_t)p.index_count * sizeof(uint16_t));
     }
@@ -118,7 +118,8 @@ static void upload_texture(const gn_gl *gl, const scene_texture *t, int cuts, GL
     gl->glGenTextures(1, name);
     gl->glBindTexture(GL_TEXTURE_2D, *name);
     gl->glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    gl->glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, (GLsizei)t->width, (GLsizei)t->height, 0, GL_RGBA, GL_UNSIGNED_BYTE, t->rgba);
+    gl->glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA, (GLsizei)t->width, (GLsizei)t->height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                     t->rgba);
     gl->glGenerateMipmap(GL_TEXTURE_2D);
     gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wraps[t->wrap[0]]);
     gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wraps[t->wrap[1]]);

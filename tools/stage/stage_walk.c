@@ -55,8 +55,8 @@ int stage_draw_mask(stage *s, uint32_t light, char message[SCENE_MESSAGE])
         return 0;
     while (gn_gles_next(s->gles, &step)) {
         const int is_light = step.draw == GN_DRAW_LIGHT;
-        const stage_look look = {0, 0, 0, is_light ? lit : visible, is_light ? step.receivers : -1,
-                                 is_light ? (int)light : -1};
+        const stage_look look = {
+            0, 0, 0, is_light ? lit : visible, is_light ? step.receivers : -1, is_light ? (int)light : -1};
 
         if (step.draw != GN_DRAW_FINAL)
             stage_draw_objects(s, STAGE_PASS_SOLID, &look);
@@ -76,8 +76,8 @@ int stage_draw_shares(stage *s, char message[SCENE_MESSAGE])
         return 0;
     while (gn_gles_next(s->gles, &step)) {
         const int is_light = step.draw == GN_DRAW_LIGHT;
-        const stage_look look = {0, 0, 0, is_light ? grey : black, is_light ? step.receivers : -1,
-                                 is_light ? (int)step.light : -1};
+        const stage_look look = {
+            0, 0, 0, is_light ? grey : black, is_light ? step.receivers : -1, is_light ? (int)step.light : -1};
 
         if (step.draw != GN_DRAW_FINAL)
             stage_draw_objects(s, STAGE_PASS_SOLID, &look);

@@ -28,10 +28,9 @@ typedef struct truth_options {
  * truth_free(). Returns NULL with a message when memory ran out or an argument is out of range. */
 truth *truth_create(const scene *s, const truth_options *options, char message[SCENE_MESSAGE]);
 
-/* The mask of one light: [height][width] each, row 0 on top. lit: 0 or 255; visible: 0 or 255 (lit is 0 where nothing is
- * visible); classes: truth_class. Returns 1, or 0 with a message. */
-int truth_light(truth *t, size_t light, uint8_t *lit, uint8_t *visible, uint8_t *classes,
-                char message[SCENE_MESSAGE]);
+/* The mask of one light: [height][width] each, row 0 on top. lit: 0 or 255; visible: 0 or 255 (lit is 0 where
+ * nothing is visible); classes: truth_class. Returns 1, or 0 with a message. */
+int truth_light(truth *t, size_t light, uint8_t *lit, uint8_t *visible, uint8_t *classes, char message[SCENE_MESSAGE]);
 
 void truth_free(truth *t); /* NULL does nothing */
 #endif

@@ -5,10 +5,10 @@
  *           points close beside it are lit.
  * SNAPPED   Rasterisers round vertices to 1/256 pixel. Is anything else seen, and is its state another, at eight points
  *           1/256 pixel from the centre? Snapping moves x and y but not depth, so a surface seen at a slope also comes
- *           nearer or recedes by what its depth changes in 1/256 pixel: does that flip it? Does an outline, or a silhouette
- *           edge of the light, come within 1/256 pixel of the centre in plain sight? A triangle that snapping brings there has
- *           the depths of its plane beyond its edge. Or is the surface so nearly edge-on to the light that a float cannot tell
- *           which of its sides is lit?
+ *           nearer or recedes by what its depth changes in 1/256 pixel: does that flip it? Does an outline, or a
+ *           silhouette edge of the light, come within 1/256 pixel of the centre in plain sight? A triangle that
+ *           snapping brings there has the depths of its plane beyond its edge. Or is the surface so nearly edge-on to
+ *           the light that a float cannot tell which of its sides is lit?
  * DEPTH     Does it flip when the point is moved along the view ray by 1 or 2 steps of the depth buffer, or is there
  *           another surface of another state within 2 steps, or znear or zfar itself?
  *
@@ -165,7 +165,8 @@ static int flips_when_moved(truth_pass *p, const truth_point *c, double depth, i
     double at[3], by[3], along[3];
 
     truth_along(at, c->from, depth, c->along);
-    if (lit && around_edges) { /* behind an edge the way to the light leads through the edge's other triangle, farther off if grazing */
+    if (lit && around_edges) {
+        /* behind an edge the way to the light leads through the edge's other triangle, farther off if grazing */
         truth_sub(by, at, c->at);
         truth_to_light(p, at, along);
         pardon.reach = 4.0 * truth_length(by) / (truth_length(along) * truth_facing(p, c));
@@ -199,8 +200,8 @@ static int is_in_sight(void *user, const double a[3], const double b[3])
     return fmin(truth_dot(a, forward), truth_dot(b, forward)) <= is->centre->depth * (1.0 + 1e-6);
 }
 
-/* Whether the light's silhouette passes within 1/256 pixel of the centre, in sight: beyond the edge, cap and side come in
- * the wrong order. deepest: of what is seen within 1/256 pixel. */
+/* Whether the light's silhouette passes within 1/256 pixel of the centre, in sight: beyond the edge, cap and side
+ * come in the wrong order. deepest: of what is seen within 1/256 pixel. */
 static int silhouette_near(truth_pass *p, const truth_point *c, double x, double y, double deepest)
 {
     static const double corners[5][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
@@ -214,7 +215,8 @@ static int silhouette_near(truth_pass *p, const truth_point *c, double x, double
         double from[2][3], along[2][3], beside[3], to_centre[3];
 
         for (int k = 0; k < 2; k++)
-            truth_view_ray(t, x + corners[i + k][0] * TRUTH_SNAP, y + corners[i + k][1] * TRUTH_SNAP, from[k], along[k]);
+            truth_view_ray(t, x + corners[i + k][0] * TRUTH_SNAP, y + corners[i + k][1] * TRUTH_SNAP, from[k],
+                           along[k]);
         for (int k = 0; k < 3; k++)
             beside[k] = from[1][k] + along[1][k] * c->depth - from[0][k] - along[0][k] * c->depth;
         truth_cross(planes[i].normal, along[0], beside);
@@ -253,7 +255,8 @@ static int is_snapped(truth_pass *p, const truth_point *c, double x, double y, i
             if (slope == 0.0)
                 slope = depth_slope(t, c, x, y);
             /* an outline: farther apart than two surfaces that meet at an edge can be */
-            if (fabs(depth - c->depth) > 2.0 * TRUTH_SNAP * (slope + depth_slope(t, &beside, sx, sy)) + 1e-6 * fabs(depth))
+            if (fabs(depth - c->depth) >
+                2.0 * TRUTH_SNAP * (slope + depth_slope(t, &beside, sx, sy)) + 1e-6 * fabs(depth))
                 return 1;
         }
         deepest = fmax(deepest, depth);

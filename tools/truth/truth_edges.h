@@ -61,7 +61,8 @@ void truth_silhouette_free(truth_silhouette *s); /* a zeroed one does nothing */
 int truth_silhouette_cross(const truth_silhouette *s, const truth_footprint *f, truth_part_visitor each, void *user);
 
 /* The same for the parts within any five planes. */
-int truth_silhouette_within(const truth_silhouette *s, const truth_plane planes[5], truth_part_visitor each, void *user);
+int truth_silhouette_within(const truth_silhouette *s, const truth_plane planes[5], truth_part_visitor each,
+                            void *user);
 
 /* Where the light puts the shadow of p on the footprint's plane; p must lie between them. */
 void truth_project(double out[3], const truth_lamp *lamp, const truth_footprint *f, const double p[3]);

@@ -1,4 +1,4 @@
-// surface.vert - an object's surface. The position is the library's statement (gnomon_gles.h); everything else is shading.
+// surface.vert - an object's surface. Its position is by the library's statement (gnomon_gles.h).
 attribute highp vec3 a_position; // less the mesh's centre
 attribute highp vec3 a_normal;
 attribute highp vec2 a_uv;
