@@ -1,6 +1,6 @@
 /* test_plan.c - plans: pure, within their bound, and what a frame's parts must be. */
 #include "gn_matrix.h"
-#include "gn_test.h"
+#include "frame.h"
 #include "gni.h"
 #include "port_template.h"
 
@@ -8,65 +8,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-static test_mesh m;
 static gn_context *context;
 
-static gn_mesh *make_box(const float low[3], const float high[3])
+/* The frame of the walk's tests, with an infinite far plane; plans are made in memory of their own here. */
+static void make_fixture(test_frame *f)
 {
-    gn_mesh_desc desc;
-    gn_mesh *mesh = NULL;
+    const gn_target target = {64, 48, 8, 8, 8, 8, 24, 8, 0};
 
-    m.vertex_count = m.triangle_count = 0;
-    test_add_box(&m, low, high, 0);
-    desc = test_desc(&m);
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_OK);
-    return mesh;
+    assert_int_equal(test_frame_make(f, context, NULL, target), GN_OK);
+    f->scene.camera.zfar = 0.0;
 }
 
-/* A camera at 0 3 8 that looks at the origin's height, a box and a floor, a point light and a sun. */
-typedef struct fixture {
-    gn_scene scene;
-    gn_object objects[2];
-    gn_light lights[2];
-    gn_mesh *box, *floor;
-} fixture;
-
-static void make_fixture(fixture *f)
+static void drop_fixture(test_frame *f)
 {
-    static const float box_low[3] = {-1, 0.5f, -1}, box_high[3] = {1, 2, 1};
-    static const float floor_low[3] = {-9, -0.5f, -9}, floor_high[3] = {9, 0, 9};
-
-    memset(f, 0, sizeof *f);
-    f->box = make_box(box_low, box_high);
-    f->floor = make_box(floor_low, floor_high);
-    for (int i = 0; i < 2; i++) {
-        f->objects[i].mesh = i ? f->floor : f->box;
-        gn_mat4_identity(f->objects[i].model);
-        f->objects[i].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN;
-    }
-    f->lights[0] = (gn_light){GN_LIGHT_POINT, {2, 5, 3}, {0, 0, 0}};
-    f->lights[1] = (gn_light){GN_LIGHT_DIRECTIONAL, {0, 0, 0}, {0.3, 1, 0.2}};
-    gn_mat4_identity(f->scene.camera.world);
-    f->scene.camera.world[13] = 3;
-    f->scene.camera.world[14] = 8;
-    f->scene.camera.left = f->scene.camera.bottom = -0.6;
-    f->scene.camera.right = f->scene.camera.top = 0.6;
-    f->scene.camera.znear = 0.1;
-    f->scene.lights = f->lights;
-    f->scene.light_count = 2;
-    f->scene.objects = f->objects;
-    f->scene.object_count = 2;
-    f->scene.target = (gn_target){64, 48, 8, 8, 8, 8, 24, 8, 0};
-    f->scene.method = GN_METHOD_AUTO;
+    test_frame_drop(f, NULL);
 }
 
-static void drop_fixture(fixture *f)
-{
-    gn_mesh_destroy(f->box);
-    gn_mesh_destroy(f->floor);
-}
-
-static const gn_plan *make_plan(const fixture *f, void **memory)
+static const gn_plan *make_plan(const test_frame *f, void **memory)
 {
     const size_t size = gn_plan_bound(&f->scene);
     const gn_plan *plan = NULL;
@@ -88,7 +46,7 @@ static void a_frame_has_its_steps(void **state)
                     {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 0}, {GN_STEP_DRAW, GN_DRAW_LIGHT, 0},
                     {GN_STEP_ZERO, GN_DRAW_NOTHING, 1},    {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 1},
                     {GN_STEP_DRAW, GN_DRAW_LIGHT, 1},      {GN_STEP_DRAW, GN_DRAW_FINAL, 0}};
-    fixture f;
+    test_frame f;
     void *memory;
     const gn_plan *plan;
 
@@ -138,7 +96,7 @@ static void a_frame_has_its_steps(void **state)
 /* Equal scenes give equal bytes, and nothing is written beyond the bound. */
 static void planning_is_pure_and_bounded(void **state)
 {
-    fixture f;
+    test_frame f;
 
     (void)state;
     make_fixture(&f);
@@ -180,7 +138,7 @@ static void infinity_is_not_clipped(void **state)
         const double t[3] = {test_uniform(&rng, -9e4, 9e4), test_uniform(&rng, -5, 5), test_uniform(&rng, -5, 5)};
         const double s[3] = {test_uniform(&rng, 0.1, 3), test_uniform(&rng, -3, -0.1), 1}, one[3] = {1, 1, 1};
         const gn_plan *plan;
-        fixture f;
+        test_frame f;
         void *memory;
 
         make_fixture(&f);
@@ -206,7 +164,7 @@ static void distance_from_the_origin_does_not_matter(void **state)
     const double far_off = 1048576.0 + 1.0 / 64.0; /* more digits than a float has */
     const gn_plan *near_plan, *far_plan;
     void *near_memory, *far_memory;
-    fixture f;
+    test_frame f;
 
     (void)state;
     make_fixture(&f);
@@ -233,7 +191,7 @@ static void orthographic_volumes_end(void **state)
 
     (void)state;
     for (int trial = 0; trial < 200; trial++) {
-        fixture f;
+        test_frame f;
         void *memory;
         const gn_plan *plan;
         const double q[4] = {test_uniform(&rng, -1, 1), test_uniform(&rng, -1, 1), test_uniform(&rng, -1, 1), 1};
@@ -287,7 +245,7 @@ static void orthographic_volumes_end(void **state)
 /* What cannot be is refused with a sentence; a flattened caster is lawful. */
 static void bad_scenes_are_refused(void **state)
 {
-    fixture f;
+    test_frame f;
     void *memory = malloc(1 << 20);
     const gn_plan *plan = NULL;
 
@@ -342,7 +300,7 @@ static void json_tells_the_plan(void **state)
     static const char *const words[] = {"\"clear_depth\": 1",   "\"method\": \"zfail\"", "\"case3\": 2",
                                         "\"light cap\"",        "\"step\": \"zero\"",    "\"draw\": \"final\"",
                                         "\"depth_range\": [0.1"};
-    fixture f;
+    test_frame f;
     void *memory;
     const gn_plan *plan;
     size_t length;
@@ -373,7 +331,7 @@ static void the_template_port_works(void **state)
     gn_port_block b = {(unsigned char *)block, sizeof block, 0, 0, 0};
     const gn_port port = gn_port_template(&b);
     gn_context *kept = context;
-    fixture f;
+    test_frame f;
     void *memory;
 
     (void)state;
