@@ -54,7 +54,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: all deps demo test truth headers layers asan valgrind size install format clean help check-build force
+.PHONY: all deps demo test truth headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -97,11 +97,14 @@ size: ## bytes per object of the library, built with -Os
 	@$(MAKE) --no-print-directory VARIANT=size build/$(notdir $(CROSS))size/libgnomon.a
 	@$(CROSS)size -t build/$(notdir $(CROSS))size/libgnomon.a
 
-install: all ## library, headers, command and gnomon.pc under DESTDIR and PREFIX
-	install -d $(D)/include/gnomon $(D)/lib/pkgconfig $(D)/bin
+install: install-lib $(B)/gnomon ## library, headers, gnomon.pc and the command under DESTDIR and PREFIX
+	install -d $(D)/bin
+	install -m 755 $(B)/gnomon $(D)/bin
+
+install-lib: $(B)/libgnomon.a ## the same without the command, which alone needs cJSON and libpng
+	install -d $(D)/include/gnomon $(D)/lib/pkgconfig
 	install -m 644 $(PUBLIC) $(D)/include/gnomon
 	install -m 644 $(B)/libgnomon.a $(D)/lib
-	install -m 755 $(B)/gnomon $(D)/bin
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' port/gnomon.pc.in > $(D)/lib/pkgconfig/gnomon.pc
 
 format: ## lay out every C file by .clang-format

@@ -12,9 +12,9 @@
 #include <string.h>
 
 #define LEAF 4u
-/* Pairs of boxes looked at for each triangle before the proof is given up: smooth meshes need 5 to 15. Many long
- * triangles around one vertex would take the square of their number. */
-#define BUDGET 64u
+/* Pairs of boxes and of triangles looked at for each triangle before the proof is given up. Many long triangles around
+ * one vertex would take the square of their number. */
+#define BUDGET 128u
 /* Signs are trusted beyond this share of the largest term: coordinates are floats, so that a double product of three
  * differences errs by some 2^-51 of it. */
 #define DOUBT 1e-14
@@ -31,7 +31,7 @@ typedef struct tree {
     uint32_t *order; /* positions in the part's list */
     node *nodes;
     uint32_t node_count, first_triangle;
-    uint64_t budget; /* pairs of boxes that may still be looked at */
+    uint64_t budget; /* pairs that may still be looked at */
 } tree;
 
 static void cross(double out[3], const double a[3], const double b[3])
@@ -254,21 +254,26 @@ static int meet(const float a[6], const float b[6])
     return a[0] <= b[3] && b[0] <= a[3] && a[1] <= b[4] && b[1] <= a[4] && a[2] <= b[5] && b[2] <= a[5];
 }
 
+static int spend(tree *t)
+{
+    t->budget -= t->budget > 0;
+    return t->budget > 0;
+}
+
 /* 1 when everything below a is apart from everything below b; a may be b. */
 static int nodes_apart(tree *t, uint32_t a, uint32_t b)
 {
     const node *na = &t->nodes[a], *nb = &t->nodes[b];
 
-    if (t->budget-- == 0) {
-        t->budget = 0;
+    if (!spend(t))
         return 0;
-    }
     if (a != b && !meet(na->box, nb->box))
         return 1;
     if (na->count && nb->count) {
         for (uint32_t i = na->first; i < na->first + na->count; i++)
             for (uint32_t j = a == b ? i + 1 : nb->first; j < nb->first + nb->count; j++)
-                if (meet(t->box[t->order[i]], t->box[t->order[j]]) && !pair_apart(t, t->order[i], t->order[j]))
+                if (meet(t->box[t->order[i]], t->box[t->order[j]]) &&
+                    (!spend(t) || !pair_apart(t, t->order[i], t->order[j])))
                     return 0;
         return 1;
     }

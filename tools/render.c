@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "options.h"
 #include "report.h"
@@ -186,6 +187,7 @@ static int measured_frame(stage *s, const job *j, size_t frame, measured *m, cha
 static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
 {
     const size_t frames = (size_t)j->frames;
+    const int show_progress = j->report && frames > 1 && isatty(STDERR_FILENO);
 
     m->frames = (uint32_t)frames;
     m->ms.count = frames;
@@ -203,6 +205,9 @@ static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_M
         /* frames whose picture nobody sees are drawn only to be measured */
         if (!j->report && i + 1 < frames)
             continue;
+        if (show_progress)
+            fprintf(stderr, "\rframe %lu of %lu%s", (unsigned long)i + 1, (unsigned long)frames,
+                    i + 1 < frames ? "" : "\n");
         status = measured_frame(s, j, i, m, message);
         if (status)
             return status;
