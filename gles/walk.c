@@ -9,8 +9,8 @@
  * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other
  * face of a fold, lies less than a step behind the visible surface, and interpolation may put it before: the cap
  * that shares the edge is then counted and the side is not. One step back, what is behind stays behind; the visible
- * cap counts as behind as it did; and receivers move by less than depth can tell. Without it 7 certain pixels of the
- * test scenes were wrong, with it none (make truth, llvmpipe, both methods). */
+ * cap counts as behind as it did; and receivers move by less than depth can tell. With no offset 2
+ * certain pixels of the test scenes are wrong by either method on llvmpipe, with it none (make truth). */
 #include "gni_gles.h"
 
 #define UP   GL_INCR_WRAP

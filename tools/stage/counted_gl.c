@@ -68,7 +68,6 @@ static void GL_APIENTRY counted_glTexImage2D(GLenum target, GLint level, GLint i
     F(glBindTexture, (GLenum a, GLuint b), (a, b), 0)                                                                  \
     F(glBlendEquation, (GLenum a), (a), 0)                                                                             \
     F(glBlendFunc, (GLenum a, GLenum b), (a, b), 0)                                                                    \
-    F(glBlendFuncSeparate, (GLenum a, GLenum b, GLenum c, GLenum d), (a, b, c, d), 0)                                  \
     F(glClearColor, (GLfloat a, GLfloat b, GLfloat c, GLfloat d), (a, b, c, d), 0)                                     \
     F(glClearDepthf, (GLfloat a), (a), 0)                                                                              \
     F(glClearStencil, (GLint a), (a), 0)                                                                               \

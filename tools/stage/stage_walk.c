@@ -45,9 +45,10 @@ int stage_draw_lit(stage *s, uint32_t first_light, char message[SCENE_MESSAGE])
     return 1;
 }
 
-int stage_draw_mask(stage *s, uint32_t light, char message[SCENE_MESSAGE])
+/* Surfaces in one colour, and another added where a light reaches them: light first_light + n for the plan's n-th. */
+static int draw_flat(stage *s, uint32_t first_light, const float surface[4], const float lit[4],
+                     char message[SCENE_MESSAGE])
 {
-    static const float visible[4] = {0, 1, 0, 0}, lit[4] = {1, 0, 0, 0};
     gn_step step;
 
     s->gl->glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
@@ -55,8 +56,12 @@ int stage_draw_mask(stage *s, uint32_t light, char message[SCENE_MESSAGE])
         return 0;
     while (gn_gles_next(s->gles, &step)) {
         const int is_light = step.draw == GN_DRAW_LIGHT;
-        const stage_look look = {
-            0, 0, 0, is_light ? lit : visible, is_light ? step.receivers : -1, is_light ? (int)light : -1};
+        const stage_look look = {0,
+                                 0,
+                                 0,
+                                 is_light ? lit : surface,
+                                 is_light ? step.receivers : -1,
+                                 is_light ? (int)(first_light + step.light) : -1};
 
         if (step.draw != GN_DRAW_FINAL)
             stage_draw_objects(s, STAGE_PASS_SOLID, &look);
@@ -64,25 +69,20 @@ int stage_draw_mask(stage *s, uint32_t light, char message[SCENE_MESSAGE])
     return 1;
 }
 
+int stage_draw_mask(stage *s, uint32_t light, char message[SCENE_MESSAGE])
+{
+    static const float visible[4] = {0, 1, 0, 0}, lit[4] = {1, 0, 0, 0};
+
+    return draw_flat(s, light, visible, lit, message);
+}
+
 int stage_draw_shares(stage *s, char message[SCENE_MESSAGE])
 {
     static const float black[4] = {0, 0, 0, 1};
     const float share = 1.0f / (float)(s->plan->light_count ? s->plan->light_count : 1);
     const float grey[4] = {share, share, share, 0};
-    gn_step step;
 
-    s->gl->glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    if (!begin(s, message))
-        return 0;
-    while (gn_gles_next(s->gles, &step)) {
-        const int is_light = step.draw == GN_DRAW_LIGHT;
-        const stage_look look = {
-            0, 0, 0, is_light ? grey : black, is_light ? step.receivers : -1, is_light ? (int)step.light : -1};
-
-        if (step.draw != GN_DRAW_FINAL)
-            stage_draw_objects(s, STAGE_PASS_SOLID, &look);
-    }
-    return 1;
+    return draw_flat(s, 0, black, grey, message);
 }
 
 void stage_draw_plain(stage *s)
