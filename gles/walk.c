@@ -9,22 +9,16 @@
  * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other
  * face of a fold, lies less than a step behind the visible surface, and interpolation may put it before: the cap
  * that shares the edge is then counted and the side is not. One step back, what is behind stays behind; the visible
- * cap counts as behind as it did; and receivers move by less than depth can tell. With no offset 2
- * certain pixels of the test scenes are wrong by either method on llvmpipe, with it none (make truth). */
+ * cap counts as behind as it did; and receivers move by less than depth can tell. With no offset 2 certain pixels
+ * of the test scenes are wrong by either method on llvmpipe, with it none (make truth). */
 #include "gni_gles.h"
 
-#define UP   GL_INCR_WRAP
-#define DOWN GL_DECR_WRAP
-#define NO_STENCIL                                                                                                     \
-    0, 0, {GL_KEEP, GL_KEEP},                                                                                          \
-    {                                                                                                                  \
-        GL_KEEP, GL_KEEP                                                                                               \
-    }
-#define LIT                                                                                                            \
-    GL_EQUAL, 0, {GL_KEEP, GL_KEEP},                                                                                   \
-    {                                                                                                                  \
-        GL_KEEP, GL_KEEP                                                                                               \
-    }
+/* clang-format off */
+#define UP         GL_INCR_WRAP
+#define DOWN       GL_DECR_WRAP
+#define NO_STENCIL 0, 0, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP}
+#define LIT        GL_EQUAL, 0, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP}
+/* clang-format on */
 
 static const gni_state ambient = {GL_TRUE, GL_TRUE, GL_LESS, NO_STENCIL, 0, 0, 0};
 static const gni_state light_masked = {GL_TRUE, GL_FALSE, GL_EQUAL, LIT, GL_ONE, GL_ONE, 0};
