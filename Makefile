@@ -41,12 +41,12 @@ TEST_LIBS  = $(shell $(PKG_CONFIG) --libs cmocka) $(TOOL_LIBS)
 
 Q       := $(if $(V),,@)
 objects  = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)))
-LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c)
+LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c gles/*/*.c)
 TOOLS   := $(filter-out $(B)/tools/main.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
 SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/*))
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
-PUBLIC  := port/gn_port.h core/gnomon.h core/gn_matrix.h gles/gnomon_gles.h gles/gn_gl.h gles/gl_funcs.h
+PUBLIC  := port/gn_port.h core/gnomon.h core/gn_capability.h core/gn_matrix.h gles/gnomon_gles.h gles/gn_gl.h gles/gl_funcs.h
 SCENES  := build/scenes/scenes.txt
 
 .DEFAULT_GOAL := all
@@ -78,7 +78,7 @@ headers: ## each public header compiles alone, as C99 and, where there is a comp
 
 layers: $(B)/libgnomon.a ## arrows point down only; the library takes memory from its port alone and has no globals
 	@! grep -nE '#include.*(GL|EGL|gles|platform|scene)' core/*.[ch] port/*.[ch]
-	@! grep -nE '#include.*(EGL|X11|osmesa|GLFW|platform|scene)' gles/*.[ch]
+	@! grep -nE '#include.*(EGL|X11|osmesa|GLFW|platform|scene)' gles/*.[ch] gles/*/*.[ch]
 	@! grep -nE '#include.*(gnomon|gni|scene)' platforms/*.[ch]
 	@! grep -nE '#include.*gni' tools/*.[ch] tools/*/*.[ch]
 	@! $(CROSS)nm -u $(filter-out %/port_libc.o,$(LIBRARY)) | grep -E ' U (e?gl[A-Z].*|malloc|calloc|realloc|free|fopen|printf)$$'

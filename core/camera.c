@@ -1,9 +1,9 @@
 /* camera.c - from world to clip space.
  *
- * A perspective camera's far plane is always at infinity, without any epsilon (Everitt 2002, section 3.2.1): rows z
- * and w of the projection differ only in their last column, so that a vertex at infinity gets z = w exactly and is
- * not clipped. A camera's zfar is honoured by the depth to which the buffer is cleared. An orthographic camera spans
- * a finite range. */
+ * A perspective camera's far plane is at infinity, without any epsilon (Everitt 2002, section 3.2.1): rows z and w of
+ * the projection differ only in their last column, so that a vertex at infinity gets z = w exactly and is not clipped. A
+ * camera's zfar is honoured by the depth to which the buffer is cleared. An orthographic camera spans a finite range,
+ * and so does the camera of a host that insists on its own far plane. */
 #include "gn_matrix.h"
 #include "gni.h"
 
@@ -26,6 +26,9 @@ gn_result gni_check_camera(gn_context *context, const gn_camera *camera)
         return gn_fail(context, GN_E_ARG, "camera: znear %g is not in front of the eye", camera->znear);
     if (camera->zfar != 0.0 && camera->zfar <= camera->znear)
         return gn_fail(context, GN_E_ARG, "camera: zfar %g is not behind znear %g", camera->zfar, camera->znear);
+    if (camera->finite_far && (camera->orthographic || camera->zfar == 0.0))
+        return gn_fail(context, GN_E_ARG, "camera: a finite far plane needs a perspective camera and a zfar (%g)",
+                       camera->zfar);
     return GN_OK;
 }
 
@@ -63,16 +66,23 @@ void gni_projection(double out[16], const gn_camera *camera, const double range[
         out[10] = -2.0 / (range[1] - range[0]);
         out[14] = -(range[1] + range[0]) / (range[1] - range[0]);
         out[15] = 1.0;
+        return;
+    }
+    out[8] = x;
+    out[9] = y;
+    out[11] = -1.0;
+    if (camera->finite_far) {
+        out[10] = -(range[1] + range[0]) / (range[1] - range[0]);
+        out[14] = -2.0 * range[1] * range[0] / (range[1] - range[0]);
     } else {
-        out[8] = x;
-        out[9] = y;
         out[10] = -1.0;
         out[14] = -2.0 * range[0];
-        out[11] = -1.0;
     }
 }
 
 double gni_depth_of(const gn_camera *camera, const double range[2], double distance)
 {
-    return camera->orthographic ? (distance - range[0]) / (range[1] - range[0]) : 1.0 - range[0] / distance;
+    if (camera->orthographic)
+        return (distance - range[0]) / (range[1] - range[0]);
+    return (1.0 - range[0] / distance) * (camera->finite_far ? range[1] / (range[1] - range[0]) : 1.0);
 }

@@ -57,8 +57,8 @@ gn_result gn_context_create(const gn_port *port, gn_context **context)
     *context = port->resize(port->user, NULL, 0, sizeof **context);
     if (!*context)
         return GN_E_MEMORY;
-    (*context)->port = *port;
-    (*context)->message[0] = '\0';
+    memset(*context, 0, sizeof **context);
+    memcpy(&(*context)->port, port, port->version < 2 ? offsetof(gn_port, setting) : sizeof *port);
     return GN_OK;
 }
 

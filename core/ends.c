@@ -1,8 +1,9 @@
-/* ends.c - where the shadow volumes of an orthographic camera end.
+/* ends.c - where shadow volumes end that may not reach infinity.
  *
- * An orthographic camera cannot image a vertex at infinity, so its volumes end on planes, in a depth range that is
- * widened to hold them (DESIGN.md, decision 3). A wide range costs depth precision: the planes are chosen to keep it
- * narrow.
+ * An orthographic camera cannot image a vertex at infinity, a camera with a finite far plane of its own clips it, and a
+ * board may. Volumes then end on planes (DESIGN.md, decision 3): an orthographic camera's depth range is widened to hold
+ * them, which costs precision; in front of a finite far plane there is only so much room. So planes are chosen that end
+ * volumes near.
  *
  * A plane p > 0 on the side of everything visible that receives may end the volume of a triangle when the light is on
  * that side too and the triangle lies strictly between the plane and the parallel to it through the light: then each
@@ -21,6 +22,8 @@
 #include <string.h>
 
 #define MARGIN (1.0 / 4096.0) /* of the diagonal of what is seen: many steps of even 16 bits of depth, and no more */
+#define LIMIT  (1.0 - 1.0 / 1048576.0) /* of zfar: what is rounded stays inside */
+#define STEPS  4.0                     /* of depth between a perspective camera's receivers and an end, at least */
 
 static void grow(double low[3], double high[3], const double p[3])
 {
@@ -42,10 +45,10 @@ static void grow_by_box(double low[3], double high[3], const gn_mesh_info *info,
     }
 }
 
-static void add_margin(double low[3], double high[3])
+static void add_margin(double low[3], double high[3], double least)
 {
     const double x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-    const double margin = MARGIN * sqrt(x * x + y * y + z * z);
+    const double margin = fmax(MARGIN * sqrt(x * x + y * y + z * z), least);
 
     for (int axis = 0; axis < 3; axis++) {
         low[axis] -= margin;
@@ -86,13 +89,32 @@ static void faces(double planes[6][4], const double low[3], const double high[3]
     }
 }
 
+/* The lowest that an edge of the image, given at distance 1, reaches between near plane and the deepest receiver. */
+static double edge(const gn_camera *camera, double at_one, double deepest)
+{
+    return camera->orthographic ? at_one : at_one * (at_one < 0.0 ? deepest : camera->znear);
+}
+
+/* DESIGN.md, decision 6: four steps of depth at the farthest receiver, seen under whatever angle. */
+static double steps_at(const gn_scene *scene, const double low[3], const double high[3])
+{
+    double reach = 0.0;
+
+    if (scene->camera.orthographic)
+        return 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        reach += fmax(low[axis] * low[axis], high[axis] * high[axis]);
+    return STEPS * sqrt(reach) * -low[2] / ldexp(scene->camera.znear, scene->target.depth_bits);
+}
+
 void gni_receiver_region(gni_region *region, const gn_scene *scene)
 {
     const gn_camera *camera = &scene->camera;
-    double low[2][3], high[2][3], axes[16];
+    double low[2][3], high[2][3], axes[16], least;
 
     memset(region, 0, sizeof *region);
-    region->deepest = camera->zfar != 0.0 ? camera->zfar : camera->znear;
+    region->deepest = camera->zfar != 0.0 && camera->orthographic ? camera->zfar : camera->znear;
+    region->limit = camera->finite_far ? camera->zfar * LIMIT : INFINITY;
     for (int box = 0; box < 2; box++)
         for (int axis = 0; axis < 3; axis++) {
             low[box][axis] = INFINITY;
@@ -108,7 +130,7 @@ void gni_receiver_region(gni_region *region, const gn_scene *scene)
 
         gni_model_view(to_view, camera, object->model, object->mesh->info.centre);
         grow_by_box(object_low, object_high, &object->mesh->info, to_view);
-        if (camera->zfar == 0.0)
+        if (camera->zfar == 0.0 || !camera->orthographic)
             region->deepest = fmax(region->deepest, -object_low[2]);
         if (!(object->flags & GN_RECEIVES))
             continue;
@@ -117,25 +139,27 @@ void gni_receiver_region(gni_region *region, const gn_scene *scene)
         gn_mat4_multiply(turned, axes, to_view);
         grow_by_box(low[1], high[1], &object->mesh->info, turned);
     }
-    low[0][0] = fmax(low[0][0], camera->left);
-    high[0][0] = fmin(high[0][0], camera->right);
-    low[0][1] = fmax(low[0][1], camera->bottom);
-    high[0][1] = fmin(high[0][1], camera->top);
+    if (camera->zfar != 0.0)
+        region->deepest = fmin(region->deepest, camera->zfar);
+    low[0][0] = fmax(low[0][0], edge(camera, camera->left, region->deepest));
+    high[0][0] = fmin(high[0][0], -edge(camera, -camera->right, region->deepest));
+    low[0][1] = fmax(low[0][1], edge(camera, camera->bottom, region->deepest));
+    high[0][1] = fmin(high[0][1], -edge(camera, -camera->top, region->deepest));
     low[0][2] = fmax(low[0][2], -region->deepest);
     high[0][2] = fmin(high[0][2], -camera->znear);
     region->empty = !(low[0][0] < high[0][0] && low[0][1] < high[0][1] && low[0][2] < high[0][2]);
     if (region->empty)
         return;
     clip_by_view(low[1], high[1], low[0], high[0], axes);
+    least = steps_at(scene, low[0], high[0]);
     for (int box = 0; box < 2; box++) {
-        add_margin(low[box], high[box]);
+        add_margin(low[box], high[box], least);
         faces(region->planes + 6 * box, low[box], high[box]);
         memcpy(region->corner_min[box], low[box], sizeof low[box]);
         memcpy(region->corner_max[box], high[box], sizeof high[box]);
     }
     memcpy(region->view_to_axes, axes, sizeof axes);
-    for (int p = 6; p < 12;
-         p++) { /* a plane's normal turns with the inverse, and a rotation's inverse is its transpose */
+    for (int p = 6; p < 12; p++) { /* a plane turns with the inverse, and a rotation's inverse is its transpose */
         const double n[3] = {region->planes[p][0], region->planes[p][1], region->planes[p][2]};
 
         for (int i = 0; i < 3; i++)
@@ -257,8 +281,8 @@ static double best_common(const search *s, const int8_t *casting, uint32_t *best
 /* A plane for each triangle. Returns 0 when there are too many. */
 static int choose_each(gni_ends *ends, const search *s, const int8_t *casting, uint8_t *end_of)
 {
-    const double enough =
-        2.0 * s->region->deepest + s->region->corner_max[0][2]; /* twice the range: beyond it an own plane is tried */
+    /* twice the range: beyond it a plane of the triangle's own is tried */
+    const double enough = fmin(2.0 * s->region->deepest + s->region->corner_max[0][2], s->region->limit);
 
     memcpy(ends->planes, s->region->planes, sizeof s->region->planes);
     ends->count = 12;
@@ -289,7 +313,7 @@ static int choose_each(gni_ends *ends, const search *s, const int8_t *casting, u
                 depth = d;
             }
         }
-        if (depth == INFINITY)
+        if (depth == INFINITY || depth > s->region->limit)
             return 0;
         end_of[t] = depth == -INFINITY ? GNI_MAX_ENDS : (uint8_t)best;
         ends->deepest = fmax(ends->deepest, depth);
@@ -309,7 +333,7 @@ int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mes
     if (region->empty)
         return 1;
     depth = best_common(&s, casting, &best);
-    if (depth < 2.0 * region->deepest + region->corner_max[0][2] || depth == -INFINITY) {
+    if (depth <= fmin(2.0 * region->deepest + region->corner_max[0][2], region->limit)) {
         ends->count = depth == -INFINITY ? 0 : 1; /* nothing casts: no volume */
         memcpy(ends->planes[0], region->planes[best], sizeof ends->planes[0]);
         ends->deepest = depth;

@@ -100,16 +100,30 @@ double gni_depth_of(const gn_camera *camera, const double range[2], double dista
 /* The matrix that moves a point away from the light onto a plane: (plane . light) I - light plane^T. */
 void gni_extrusion(double out[16], const double light[4], const double plane[4]);
 
-/* ends.c: where the volumes of an orthographic camera end. */
+/* choose.c */
+typedef struct gni_choice {
+    gn_method method;
+    gn_stencil_layout stencil;
+    gn_far far_ends;
+    char reason[256]; /* as in gn_plan_light */
+} gni_choice;
+
+/* The method that is meant and its way here. GN_E_DEVICE when the target lacks what it needs. */
+gn_result gni_choose(gn_context *context, const gn_scene *scene, gni_choice *choice);
+gn_far gni_far_ends(const gn_scene *scene);
+/* "is hidden", "fails its proof" or "is not offered". */
+const char *gni_why_not(const gn_target *target, gn_capability capability);
+
+/* ends.c: where volumes end that must end on planes. */
 #define GNI_MAX_ENDS 250 /* end planes of one caster for one light; a byte names one */
 
 typedef struct gni_region {
-    double
-        planes[12]
-              [4]; /* view space: faces of boxes that hold everything visible that receives, and a margin; > 0 inside */
+    /* view space: faces of two boxes that hold everything visible that receives, and a margin; > 0 inside */
+    double planes[12][4];
     double corner_min[2][3], corner_max[2][3]; /* the two boxes: along view axes and along world axes */
     double view_to_axes[16];                   /* turns view space to the world's axes */
     double deepest;                            /* view distance of the farthest thing that can be seen */
+    double limit;                              /* view distance that no volume may pass; INFINITY mostly */
     int empty;
 } gni_region;
 
@@ -123,7 +137,8 @@ typedef struct gni_ends {
 } gni_ends;
 
 /* Chooses end planes. light: [4] view space. end_of: [triangle_count] receives the plane of each casting triangle, or
- * GNI_MAX_ENDS for one that shadows nothing visible. Returns 0 when no GNI_MAX_ENDS planes end them all. */
+ * GNI_MAX_ENDS for one that shadows nothing visible. Returns 0 when no GNI_MAX_ENDS planes end them all before the
+ * region's limit. */
 int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mesh, const double model_view[16],
                     const double light[4], const int8_t *casting, uint8_t *end_of);
 #endif

@@ -3,21 +3,20 @@
  * Turns meshes, lights and a camera into a plan: which volumes are drawn, how, in which order, with their index
  * streams. It does not draw (gles/gnomon_gles.h does), load models, open files or make contexts.
  *
- * space     mesh positions in object space; lights, cameras and model matrices in world space; names ending in _px
- * count
+ * space     mesh positions in object space; lights, cameras and model matrices in world space; names ending in _px count
  *           pixels from the lower left. Column vectors; matrices as in gn_matrix.h
- * winding   counter-clockwise is the front of a triangle, in object space light     double[4] homogeneous where it
- * stands alone: w = 1 a position, w = 0 a direction towards the light units     lengths in scene units, angles in
- * radians, sizes in bytes lifetime  who creates destroys; gn_*_destroy(NULL) does nothing. "Borrowed": keep it alive
- * and unchanged. "Copied": yours
- *           to free once the call returns
+ * winding   counter-clockwise is the front of a triangle, in object space
+ * light     double[4] homogeneous where it stands alone: w = 1 a position, w = 0 a direction towards the light
+ * units     lengths in scene units, angles in radians, sizes in bytes
+ * lifetime  who creates destroys; gn_*_destroy(NULL) does nothing. "Borrowed": keep it alive and unchanged. "Copied":
+ *           yours to free once the call returns
  * threads   no globals. A context and all made from it: one thread at a time. Different contexts: different threads
  * errors    gn_result from all that can fail; outputs stay untouched unless a comment says otherwise. gn_message() has
- * the
- *           sentence with the numbers in it
+ *           the sentence with the numbers in it
  * floats    compile this library without -ffast-math: closed volumes rest on IEEE arithmetic */
 #ifndef GNOMON_H
 #define GNOMON_H
+#include "gn_capability.h"
 #include "gn_port.h"
 #include <stddef.h>
 #include <stdint.h>
@@ -154,6 +153,10 @@ typedef struct gn_camera {
     double left, right, bottom, top;
     double znear; /* greater than 0; orthographic: any, less than zfar */
     double zfar;  /* perspective: 0 for infinite. orthographic: greater than znear, or 0 for behind everything */
+    /* Perspective: 1 when the host insists on a projection of its own whose far plane is zfar, which must then be given.
+     * Volumes need depth clamp there, or must end before zfar: a light too near to its caster is refused. [0: the
+     * projection's far plane is at infinity, zfar the depth to which the buffer is cleared] */
+    int finite_far;
 } gn_camera;
 
 typedef enum gn_light_kind { GN_LIGHT_POINT, GN_LIGHT_SPOT, GN_LIGHT_DIRECTIONAL } gn_light_kind;
@@ -185,13 +188,18 @@ typedef struct gn_object {
 void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *facing);
 void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *casting);
 
-/* What is drawn into. gn_gles_describe_target() fills it. */
+/* What is drawn into, and what can be done there. gn_gles_describe_target() fills it. */
 typedef struct gn_target {
     uint32_t width, height;
     int red_bits, green_bits, blue_bits, alpha_bits;
     int depth_bits, stencil_bits;
     int samples;
+    int mediump_bits;                    /* of mantissa that mediump keeps in fragment shaders; 0: not known */
+    uint32_t advertised, proven, hidden; /* sets of gn_capability */
 } gn_target;
+
+/* Proven and not hidden. */
+int gn_target_can(const gn_target *target, gn_capability capability);
 
 /* ---- Methods ---- */
 
@@ -205,15 +213,32 @@ typedef enum gn_method {
 typedef struct gn_method_info {
     const char *name;    /* what --method takes */
     const char *summary; /* one line */
-    const char *needs;   /* capabilities, one line */
+    uint32_t needs;      /* capabilities that it cannot do without */
+    uint32_t likes;      /* and those that it does with less, or more slowly, without */
     int exact;
 } gn_method_info;
 
 /* NULL when method is not one of gn_method. */
 const gn_method_info *gn_method_describe(gn_method method);
 
-/* GN_METHOD_COUNT when there is no such name. */
-gn_method gn_method_by_name(const char *name);
+/* GN_METHOD_COUNT when there is no such name. A stencil method's name may end in "/one-sided": *one_sided is then 1,
+ * otherwise 0. */
+gn_method gn_method_by_name(const char *name, int *one_sided);
+
+/* Of a stencil that tells lit from shadowed by a count (DESIGN.md, decision 10). */
+typedef struct gn_stencil_layout {
+    int two_sided; /* 0: every volume is drawn twice, culled, what counts up first */
+    int wrap;      /* counts go round at 256; 0: they stop at the ends */
+    int reference; /* the value of a pixel that no volume holds; buffers are cleared to it */
+    int low, high; /* counts, from the reference, that are kept. Wrapping: of the sum; else also on the way to it */
+} gn_stencil_layout;
+
+/* How the far ends of volumes survive clipping at the far plane. */
+typedef enum gn_far {
+    GN_FAR_INFINITE, /* at infinity, w = 0, under a projection that ends there too */
+    GN_FAR_CLAMPED,  /* at infinity, under depth clamp */
+    GN_FAR_ENDED     /* on planes behind all that receives */
+} gn_far;
 
 /* ---- Plan: what will be drawn, as data, decided before any GL call ---- */
 
@@ -225,6 +250,7 @@ typedef struct gn_scene {
     uint32_t object_count;
     gn_target target;
     gn_method method;
+    int one_sided; /* 1: volumes are drawn twice, culled, even where two-sided stencil is proven */
 } gn_scene;
 
 enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4 };
@@ -244,7 +270,7 @@ typedef struct gn_record {
 
 typedef enum gn_step_kind {
     GN_STEP_CLEAR,   /* colour, depth and stencil, unmasked */
-    GN_STEP_ZERO,    /* the stencil becomes 0 again, by a quad */
+    GN_STEP_ZERO,    /* the stencil becomes the layout's reference again, by a quad */
     GN_STEP_VOLUMES, /* records are counted into the stencil */
     GN_STEP_DRAW     /* the host's: see gn_draw */
 } gn_step_kind;
@@ -266,7 +292,7 @@ typedef struct gn_step {
 
 typedef struct gn_plan_light {
     gn_method method;
-    const char *reason; /* a sentence, static */
+    char reason[256]; /* why this method, and this way of it: a sentence */
     uint32_t casters;
     uint32_t cases[3]; /* casters drawn by McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
 } gn_plan_light;
@@ -282,8 +308,11 @@ typedef struct gn_plan_object {
  * printed. */
 typedef struct gn_plan {
     gn_target target;
-    double clear_depth;    /* 1, or the depth of zfar */
-    double depth_range[2]; /* view distances that depth 0 and 1 stand for; [1] is INFINITY for a perspective camera */
+    gn_stencil_layout stencil;
+    gn_far far_ends;
+    double clear_depth; /* 1, or the depth of zfar */
+    double
+        depth_range[2]; /* view distances that depth 0 and 1 stand for; [1] is INFINITY for most perspective cameras */
     const gn_step *steps;
     uint32_t step_count;
     const gn_record *records;
@@ -300,14 +329,17 @@ typedef struct gn_plan {
 } gn_plan;
 
 /* Bytes that gn_plan_make() may need for this scene at most, whatever the camera, the lights' places and the model
- * matrices are: it depends on the counts, the meshes, the flags and camera.orthographic only. 0 when scene is NULL
- * or the size does not fit size_t. */
+ * matrices are: it depends on the counts, the meshes, the flags, camera.orthographic, camera.finite_far and the target's
+ * capabilities only. 0 when scene is NULL or the size does not fit size_t. */
 size_t gn_plan_bound(const gn_scene *scene);
 
 /* Makes the plan of a frame in the given memory (aligned for double). Pure: equal scenes give equal bytes. Allocates
  * nothing. Returns GN_OK; GN_E_ARG for what is not finite or out of range; GN_E_SPACE; GN_E_DEVICE when the method
- * needs what the target lacks. Cost: O(triangles of casters) for each light. */
+ * needs what the target lacks, or when a volume would be clipped at the far plane. Cost: O(triangles of casters) for each light. */
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan);
+
+/* The method of one of the plan's lights with its suffix: "zfail", "zfail/one-sided". Static. */
+const char *gn_plan_method_name(const gn_plan *plan, uint32_t light);
 
 /* Writes the plan as JSON into text[capacity], always terminated when capacity > 0, and returns the length that the
  * whole has, like snprintf. */

@@ -3,23 +3,48 @@
 
 #include <string.h>
 
-static const gn_method_info methods[GN_METHOD_COUNT] = {
-    {"auto", "the best exact method that the target can do", "what that method needs", 1},
-    {"zfail", "stencil, every caster by z-fail, closed volumes, to 255 layers (Everitt 2002)",
-     "8 stencil bits, depth, two-sided stencil with wrapping", 1},
-    {"zpass", "stencil, every caster by z-pass; wrong where a volume meets the near plane (Hoxley 2003)",
-     "8 stencil bits, depth, two-sided stencil with wrapping", 0},
+#define BIT(capability) (1u << (capability))
+
+#define STENCIL_NEEDS (BIT(GN_CAN_STENCIL) | BIT(GN_CAN_DEPTH))
+#define STENCIL_LIKES (BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_STENCIL_WRAP) | BIT(GN_CAN_W0))
+
+static const char one_sided_suffix[] = "/one-sided";
+
+static const struct {
+    gn_method_info info;
+    const char *one_sided_name; /* NULL: it does not count in a stencil */
+} methods[GN_METHOD_COUNT] = {
+    {{"auto", "the best exact method that the target can do", 0, 0, 1}, NULL},
+    {{"zfail", "stencil, every caster by z-fail, closed volumes, to 255 layers (Everitt 2002)", STENCIL_NEEDS,
+      STENCIL_LIKES, 1},
+     "zfail/one-sided"},
+    {{"zpass", "stencil, every caster by z-pass; wrong where a volume meets the near plane (Hoxley 2003)",
+      STENCIL_NEEDS, STENCIL_LIKES, 0},
+     "zpass/one-sided"},
 };
 
 const gn_method_info *gn_method_describe(gn_method method)
 {
-    return (unsigned)method < GN_METHOD_COUNT ? &methods[method] : NULL;
+    return (unsigned)method < GN_METHOD_COUNT ? &methods[method].info : NULL;
 }
 
-gn_method gn_method_by_name(const char *name)
+gn_method gn_method_by_name(const char *name, int *one_sided)
 {
-    for (int m = 0; m < GN_METHOD_COUNT; m++)
-        if (name && strcmp(methods[m].name, name) == 0)
+    const char *const suffix = name ? strstr(name, one_sided_suffix) : NULL;
+
+    *one_sided = suffix && strcmp(suffix, one_sided_suffix) == 0;
+    for (int m = 0; m < GN_METHOD_COUNT; m++) {
+        const char *const full = *one_sided ? methods[m].one_sided_name : methods[m].info.name;
+
+        if (name && full && strcmp(full, name) == 0)
             return (gn_method)m;
+    }
     return GN_METHOD_COUNT;
+}
+
+const char *gn_plan_method_name(const gn_plan *plan, uint32_t light)
+{
+    const gn_method method = plan->lights[light].method;
+
+    return plan->stencil.two_sided ? methods[method].info.name : methods[method].one_sided_name;
 }

@@ -11,8 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-#define STENCIL_BITS_NEEDED 8
-
 /* A block cut from the front. With base NULL it only counts. */
 typedef struct arena {
     unsigned char *base;
@@ -46,6 +44,7 @@ typedef struct draft {
     uint8_t *end_of;
     gni_region *region;
     gni_ends *ends;
+    gni_choice choice;
     double projection[16], view[16];
 } draft;
 
@@ -53,6 +52,7 @@ typedef struct draft {
 static int lay_out(draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
+    const int are_ended = gni_far_ends(s) == GN_FAR_ENDED;
     size_t records = 0, indices = 0, triangles = 0;
     const size_t most =
         UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
@@ -63,7 +63,7 @@ static int lay_out(draft *d, arena *a)
 
         if (!mesh || !(s->objects[i].flags & GN_CASTS))
             continue;
-        if (s->camera.orthographic)
+        if (are_ended)
             ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
         if (mesh->info.chunk_count > (most - records) / ends || mesh->info.triangle_count > (most - indices) / 24)
             return 0;
@@ -77,8 +77,7 @@ static int lay_out(draft *d, arena *a)
     d->objects = cut(a, s->object_count, sizeof *d->objects);
     d->records = cut(a, records * s->light_count, sizeof *d->records);
     d->casting = cut(a, triangles, 1);
-    d->group = NULL;
-    if (s->camera.orthographic) {
+    if (are_ended) {
         d->group = cut(a, triangles, 1);
         d->end_of = cut(a, triangles, 1);
         d->region = cut(a, 1, sizeof *d->region);
@@ -141,28 +140,6 @@ static gn_result check(gn_context *context, const gn_scene *s)
             return gn_fail(context, GN_E_ARG, "plan: object %lu: last row of its matrix is %g %g %g %g, not 0 0 0 1",
                            (unsigned long)i, m[3], m[7], m[11], m[15]);
     }
-    return GN_OK;
-}
-
-/* The method that is meant, or GN_E_DEVICE. */
-static gn_result choose_method(const draft *d, gn_method *method, const char **reason)
-{
-    const gn_target *t = &d->scene->target;
-
-    *method = d->scene->method;
-    *reason = "asked for by name";
-    if ((unsigned)*method >= GN_METHOD_COUNT)
-        return gn_fail(d->context, GN_E_ARG, "plan: no method has number %d", (int)*method);
-    if (*method == GN_METHOD_AUTO) {
-        *method = GN_METHOD_ZFAIL;
-        *reason = "exact for any view, and the target has stencil and depth";
-    }
-    if (t->stencil_bits < STENCIL_BITS_NEEDED)
-        return gn_fail(d->context, GN_E_DEVICE, "method %s needs %d stencil bits: the target has %d",
-                       gn_method_describe(*method)->name, STENCIL_BITS_NEEDED, t->stencil_bits);
-    if (t->depth_bits < 1)
-        return gn_fail(d->context, GN_E_DEVICE, "method %s needs a depth buffer: the target has none",
-                       gn_method_describe(*method)->name);
     return GN_OK;
 }
 
@@ -247,18 +224,38 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
     }
 }
 
-/* An orthographic caster's volumes, one for each end plane. */
-static void add_ended(draft *d, uint32_t light, uint32_t object_index, const double light_view[4])
+/* No plane ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not
+ * stop the frame; elsewhere depth clamp would have done, and the frame is refused. */
+static gn_result refuse_ends(draft *d, uint32_t light, uint32_t object)
+{
+    const gn_camera *camera = &d->scene->camera;
+    const char *const clamp = gni_why_not(&d->scene->target, GN_CAN_DEPTH_CLAMP);
+
+    if (camera->orthographic) {
+        d->plan->endless_casters++;
+        return GN_OK;
+    }
+    if (camera->finite_far)
+        return gn_fail(d->context, GN_E_DEVICE,
+                       "light %lu is too near to object %lu: its volume cannot end before the far plane at %g, and "
+                       "depth-clamp %s",
+                       (unsigned long)light, (unsigned long)object, camera->zfar, clamp);
+    return gn_fail(d->context, GN_E_DEVICE,
+                   "light %lu is too near to object %lu: its volume needs more than %d ends; w0 %s and depth-clamp %s",
+                   (unsigned long)light, (unsigned long)object, GNI_MAX_ENDS, gni_why_not(&d->scene->target, GN_CAN_W0),
+                   clamp);
+}
+
+/* A caster's volumes, one for each end plane. */
+static gn_result add_ended(draft *d, uint32_t light, uint32_t object_index, const double light_view[4])
 {
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
     double model_view[16];
 
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
-    if (!gni_choose_ends(d->ends, d->region, mesh, model_view, light_view, d->casting, d->end_of)) {
-        d->plan->endless_casters++;
-        return;
-    }
+    if (!gni_choose_ends(d->ends, d->region, mesh, model_view, light_view, d->casting, d->end_of))
+        return refuse_ends(d, light, object_index);
     for (uint32_t p = 0; p < d->ends->count; p++) {
         int any = 0;
 
@@ -269,24 +266,26 @@ static void add_ended(draft *d, uint32_t light, uint32_t object_index, const dou
         if (any)
             add_records(d, light, object_index, d->group, light_view, d->ends->planes[p]);
     }
+    return GN_OK;
 }
 
-static void add_volumes(draft *d, uint32_t light)
+static gn_result add_volumes(draft *d, uint32_t light)
 {
     static const double infinity[4] = {0, 0, 0, 1};
     gn_plan_light *about = &d->lights[light];
+    gn_result result = GN_OK;
     double light_view[4];
 
     light_in_view(d, &d->scene->lights[light], light_view);
-    for (uint32_t i = 0; i < d->scene->object_count; i++) {
+    for (uint32_t i = 0; i < d->scene->object_count && result == GN_OK; i++) {
         const gn_object *object = &d->scene->objects[i];
         const uint32_t before = d->plan->record_count;
 
         if (!(object->flags & GN_CASTS))
             continue;
         gn_object_casting(object, &d->scene->lights[light], d->casting);
-        if (d->scene->camera.orthographic)
-            add_ended(d, light, i, light_view);
+        if (d->plan->far_ends == GN_FAR_ENDED)
+            result = add_ended(d, light, i, light_view);
         else
             add_records(d, light, i, d->casting, light_view, infinity);
         if (d->plan->record_count > before) {
@@ -294,16 +293,15 @@ static void add_volumes(draft *d, uint32_t light)
             about->cases[about->method == GN_METHOD_ZPASS ? 0 : 2]++;
         }
     }
+    return result;
 }
 
 /* The depth range of an orthographic camera: from znear to behind all that is seen, all casters and all ends. */
 static void find_range(draft *d)
 {
     const gn_scene *s = d->scene;
-    double deepest;
+    double deepest = d->region->deepest;
 
-    gni_receiver_region(d->region, s);
-    deepest = d->region->deepest;
     for (uint32_t light = 0; light < s->light_count; light++)
         for (uint32_t i = 0; i < s->object_count; i++) {
             const gn_object *object = &s->objects[i];
@@ -355,11 +353,13 @@ static gn_result add_light(draft *d, uint32_t light, int *stencil_used)
 {
     const uint32_t first = d->plan->record_count;
     int others = 0;
-    const gn_result result = choose_method(d, &d->lights[light].method, &d->lights[light].reason);
+    gn_result result;
 
+    d->lights[light].method = d->choice.method;
+    memcpy(d->lights[light].reason, d->choice.reason, sizeof d->lights[light].reason);
+    result = add_volumes(d, light);
     if (result != GN_OK)
         return result;
-    add_volumes(d, light);
     if (d->plan->record_count > first) {
         if (*stencil_used)
             add_step(d, GN_STEP_ZERO, GN_DRAW_NOTHING, light, 0);
@@ -406,6 +406,9 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     memset(&d, 0, sizeof d);
     d.context = context;
     d.scene = scene;
+    result = gni_choose(context, scene, &d.choice);
+    if (result != GN_OK)
+        return result;
     lay_out(&d, &a);
     memset(d.plan, 0, sizeof *d.plan);
     memset(d.lights, 0, scene->light_count * sizeof *d.lights);
@@ -417,12 +420,16 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     d.plan->light_count = scene->light_count;
     d.plan->objects = d.objects;
     d.plan->object_count = scene->object_count;
+    d.plan->stencil = d.choice.stencil;
+    d.plan->far_ends = d.choice.far_ends;
     d.plan->depth_range[0] = scene->camera.znear;
-    d.plan->depth_range[1] = INFINITY;
+    d.plan->depth_range[1] = scene->camera.finite_far ? scene->camera.zfar : INFINITY;
+    if (d.plan->far_ends == GN_FAR_ENDED)
+        gni_receiver_region(d.region, scene);
     if (scene->camera.orthographic)
         find_range(&d);
     d.plan->clear_depth = 1.0;
-    if (scene->camera.zfar != 0.0)
+    if (scene->camera.zfar != 0.0 && !scene->camera.finite_far)
         d.plan->clear_depth = gni_depth_of(&scene->camera, d.plan->depth_range, scene->camera.zfar);
     gni_projection(d.projection, &scene->camera, d.plan->depth_range);
     gni_model_view(d.view, &scene->camera, identity, no_centre);

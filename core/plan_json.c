@@ -19,7 +19,7 @@ static void put(writer *w, const char *format, ...)
 
 static void put(writer *w, const char *format, ...)
 {
-    char piece[256];
+    char piece[512];
     va_list args;
     int length;
 
@@ -84,11 +84,17 @@ static void put_step(writer *w, const gn_step *s)
 
 size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
 {
+    static const char *const far_ends[] = {"infinite", "clamped", "ended"};
     writer w = {text, capacity, 0};
 
     put(&w, "{\"target\": {\"width\": %lu, \"height\": %lu, \"depth_bits\": %d, \"stencil_bits\": %d},\n",
         (unsigned long)plan->target.width, (unsigned long)plan->target.height, plan->target.depth_bits,
         plan->target.stencil_bits);
+    put(&w,
+        " \"stencil\": {\"two_sided\": %s, \"wrap\": %s, \"reference\": %d, \"range\": [%d, %d]}, \"far_ends\": "
+        "\"%s\",\n",
+        plan->stencil.two_sided ? "true" : "false", plan->stencil.wrap ? "true" : "false", plan->stencil.reference,
+        plan->stencil.low, plan->stencil.high, far_ends[plan->far_ends]);
     put(&w, " \"clear_depth\": ");
     put_number(&w, plan->clear_depth);
     put(&w, ", \"depth_range\": [");
@@ -103,7 +109,7 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
         put(&w,
             "%s\n  {\"method\": \"%s\", \"reason\": \"%s\", \"casters\": %lu, \"case1\": %lu, \"case2\": %lu, "
             "\"case3\": %lu}",
-            i ? "," : "", gn_method_describe(l->method)->name, l->reason, (unsigned long)l->casters,
+            i ? "," : "", gn_plan_method_name(plan, i), l->reason, (unsigned long)l->casters,
             (unsigned long)l->cases[0], (unsigned long)l->cases[1], (unsigned long)l->cases[2]);
     }
     put(&w, "],\n \"steps\": [");

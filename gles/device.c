@@ -15,27 +15,47 @@ static gn_result refuse(gn_gles *g, const char *what)
     return gn_fail(context, GN_E_DEVICE, "gn_gles_create: %s", what);
 }
 
-gn_result gn_gles_create(gn_context *context, gn_get_proc get_proc, void *user, gn_gles **out)
+static gn_result hide(gn_context *context, const char *from, const char *names, uint32_t *hidden)
 {
-    /* two triangles over the whole target; w = 1 takes the near matrix */
-    static const float corners[6][4] = {{-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1},
-                                        {-1, -1, 0, 1}, {1, 1, 0, 1},  {-1, 1, 0, 1}};
+    const char *const unknown = gn_capability_parse(names, hidden);
+
+    if (!unknown)
+        return GN_OK;
+    return gn_fail(context, GN_E_ARG, "%s: no capability is called \"%.*s\"", from, (int)strcspn(unknown, ","),
+                   unknown);
+}
+
+gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles **out)
+{
+    static const float corners[18][4] = {
+        {-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1}, {-1, -1, 0, 1}, {1, 1, 0, 1}, {-1, 1, 0, 1}, /* GNI_QUAD */
+        {-1, -1, 1, 0}, {1, -1, 1, 0}, {1, 1, 1, 0}, {-1, -1, 1, 0}, {1, 1, 1, 0}, {-1, 1, 1, 0}, /* GNI_FAR_QUAD */
+        {-1, -1, 1, 1}, {1, -1, 1, 1}, {1, 1, 1, 0}, {-1, -1, 1, 1}, {1, 1, 1, 0}, {-1, 1, 1, 0}  /* GNI_WALL */
+    };
     const gn_port *port = gn_context_port(context);
     const char *missing;
+    uint32_t hidden = 0;
     gn_gles *g;
     GLint arrays = 0;
+    gn_result result;
 
     if (out)
         *out = NULL;
-    if (!context || !get_proc || !out)
+    if (!context || !desc || !desc->get_proc || !out)
         return gn_fail(context, GN_E_ARG, "gn_gles_create: NULL argument");
+    result = hide(context, "gn_gles_desc.hide", desc->hide, &hidden);
+    if (result == GN_OK && port->setting)
+        result = hide(context, "GNOMON_HIDE", port->setting(port->user, "GNOMON_HIDE"), &hidden);
+    if (result != GN_OK)
+        return result;
     g = port->resize(port->user, NULL, 0, sizeof *g);
     if (!g)
         return gn_fail(context, GN_E_MEMORY, "gn_gles_create: no memory");
     memset(g, 0, sizeof *g);
     g->context = context;
     g->port = *port;
-    missing = gn_gl_load(&g->gl, get_proc, user);
+    g->hidden = hidden;
+    missing = gn_gl_load(&g->gl, desc->get_proc, desc->user);
     if (missing) {
         g->forgotten = 1;
         gn_gles_destroy(g);
@@ -43,7 +63,7 @@ gn_result gn_gles_create(gn_context *context, gn_get_proc get_proc, void *user, 
     }
     g->gl.glGetIntegerv(GL_MAX_VERTEX_ATTRIBS, &arrays);
     g->attribute_arrays = arrays > 0 ? (GLuint)arrays : 8; /* 8 is the least that OpenGL ES 2.0 allows */
-    g->program = gni_make_program(g, "volume", gni_shader_volume_vert, gni_shader_flat_frag);
+    g->program = gni_make_program(g, "volume", "", gni_shader_volume_vert, gni_shader_flat_frag);
     if (!g->program)
         return refuse(g, "the GL refuses the volume shaders: see the log");
     g->near_matrix = g->gl.glGetUniformLocation(g->program, "u_near");
@@ -85,22 +105,4 @@ void gn_gles_destroy(gn_gles *g)
 const gn_gl *gn_gles_functions(const gn_gles *g)
 {
     return &g->gl;
-}
-
-gn_target gn_gles_describe_target(const gn_gles *g, uint32_t width, uint32_t height)
-{
-    const gn_gl *gl = &g->gl;
-    gn_target t;
-
-    memset(&t, 0, sizeof t);
-    t.width = width;
-    t.height = height;
-    gl->glGetIntegerv(GL_RED_BITS, &t.red_bits);
-    gl->glGetIntegerv(GL_GREEN_BITS, &t.green_bits);
-    gl->glGetIntegerv(GL_BLUE_BITS, &t.blue_bits);
-    gl->glGetIntegerv(GL_ALPHA_BITS, &t.alpha_bits);
-    gl->glGetIntegerv(GL_DEPTH_BITS, &t.depth_bits);
-    gl->glGetIntegerv(GL_STENCIL_BITS, &t.stencil_bits);
-    gl->glGetIntegerv(GL_SAMPLES, &t.samples);
-    return t;
 }

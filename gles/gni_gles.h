@@ -5,23 +5,35 @@
 
 /* The GL state of a pass, as data (state.c sends the difference). */
 typedef struct gni_face {
-    GLenum depth_fail, depth_pass; /* stencil operations; failing the stencil test keeps */
+    GLenum depth_fail, depth_pass; /* stencil operations, 0 for KEEP; failing the stencil test keeps */
 } gni_face;
 
 typedef struct gni_state {
     GLboolean color_write, depth_write;
-    GLenum depth_func;   /* 0: no depth test */
-    GLenum stencil_func; /* 0: no stencil test. Reference 0, all bits */
     GLuint stencil_write;
+    GLenum depth_func;   /* 0: no depth test */
+    GLenum stencil_func; /* 0: no stencil test. All bits */
+    GLint stencil_reference;
     gni_face front, back;
     GLenum blend_source, blend_destination; /* 0, 0: no blending */
+    GLenum cull;                            /* the faces that are not drawn; 0: all are */
     int offset;                             /* depth steps by which triangles are moved away from the eye */
+    int clamp;                              /* depth out of range is clamped */
 } gni_state;
 
 typedef struct gni_upload {
     const gn_mesh *mesh;
     GLuint buffer;
 } gni_upload;
+
+/* Of extensions that gl2.h does not know; desktop OpenGL has the same numbers. */
+#define GNI_DEPTH_CLAMP      0x864F
+#define GNI_DEPTH24_STENCIL8 0x88F0
+
+#define GNI_SYMPTOM 96
+
+/* First vertices in gn_gles.quad, six each: a quad over the target; its corners at w = 0; the upper two alone so. */
+enum { GNI_QUAD, GNI_FAR_QUAD = 6, GNI_WALL = 12 };
 
 struct gn_gles {
     gn_context *context;
@@ -33,11 +45,14 @@ struct gn_gles {
     GLuint attribute_arrays;
     gni_upload *uploads; /* sorted by address */
     uint32_t upload_count, upload_capacity;
-    const gn_plan *plan; /* the one begun last */
-    uint32_t at;         /* its next step */
-    gni_state state;     /* what was last sent */
-    unsigned tests_on;   /* depth 1, stencil 2, blending 4, offset 8 */
+    uint32_t hidden;                                 /* set of gn_capability */
+    char symptoms[GN_CAPABILITY_COUNT][GNI_SYMPTOM]; /* of the target described last: what its failed proofs saw */
+    const gn_plan *plan;                             /* the one begun last */
+    uint32_t at;                                     /* its next step */
+    gni_state state;                                 /* what was last sent */
+    unsigned tests_on;                               /* of state.c's switches */
     int state_is_known;
+    int clamps; /* this plan enables depth clamp */
 };
 
 /* state.c: sends what differs from what was last sent since gni_reset_state(). */
@@ -46,8 +61,9 @@ void gni_set_state(gn_gles *g, const gni_state *wanted);
 void gni_reset_state(gn_gles *g);
 void gni_leave_state(gn_gles *g); /* as in a new context */
 
-/* program.c: 0 on failure; the driver's log goes to the port under the name given. Attribute 0 is a_position. */
-GLuint gni_make_program(gn_gles *g, const char *name, const char *vertex, const char *fragment);
+/* program.c: 0 on failure; the driver's log goes to the port under the name given. Attribute 0 is a_position. defines:
+ * lines for the fragment shader, "" mostly. */
+GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const char *vertex, const char *fragment);
 
 /* buffers.c */
 const gni_upload *gni_find_upload(const gn_gles *g, const gn_mesh *mesh);
@@ -57,4 +73,30 @@ const gni_upload *gni_find_upload(const gn_gles *g, const gn_mesh *mesh);
 void gni_begin_volumes(gn_gles *g, const float color[4]);
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *record, int turned);
 void gni_end_volumes(gn_gles *g);
+
+/* host_state.c: keeps what proofs disturb, and puts it back. */
+typedef struct gni_host_state {
+    GLint switches[9], stencil[2][7], viewport[4], scissor[4], color_mask[4];
+    GLenum blend[6];
+    GLfloat clear_color[4], clear_depth, depth_range[2], offset[2];
+    GLint clear_stencil, depth_mask, pack, unpack;
+    GLenum depth_func, front_face, cull_mode, active_texture;
+    GLuint program, array_buffer, element_buffer, framebuffer, renderbuffer, texture;
+    uint32_t arrays; /* those enabled */
+    GLint array_size, array_type, array_normalized, array_stride, array_source;
+    void *array_pointer;
+} gni_host_state;
+void gni_keep_host(const gn_gles *g, gni_host_state *kept);
+void gni_put_host_back(const gn_gles *g, const gni_host_state *kept);
+
+/* advertised.c: a set of gn_capability; reads the target's bits. */
+uint32_t gni_advertised(const gn_gles *g, const gn_target *target);
+
+/* saved.c: 1 when the text is of this driver and target and knows all that is offered now; then proven, mediump_bits
+ * and the symptoms are what it says. */
+int gni_read_saved(gn_gles *g, const char *saved, gn_target *target);
+
+/* proofs/proofs.c: draws into the bound framebuffer, reads back, and fills proven, mediump_bits and the symptoms.
+ * Leaves any GL state. */
+void gni_prove(gn_gles *g, gn_target *target);
 #endif

@@ -19,15 +19,15 @@
  *                0 to 1, and sample coverage and sample alpha to coverage are off, as in a new context. Any other state
  *     clear      the first gn_gles_next() clears colour (to the host's clear colour), depth and stencil, unmasked
  *     AMBIENT    depth test LESS, depth written; stencil test and blending off
- *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL 0, not written;
- *                the others: stencil test off
+ *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL to the plan's
+ *                stencil.reference, stencil not written; the others: stencil test off
  *     FINAL      depth test LESS, depth not written; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA; stencil test off
- *     in each    viewport 0, 0, width, height of the target; colour written; culling, scissor test and polygon offset
- *                off; front face CCW; blend equation ADD; no program in use; no buffer bound; all vertex attribute
+ *     in each    viewport 0, 0, width, height of the target; colour written; culling, scissor test, polygon offset and
+ *                depth clamp off; front face CCW; blend equation ADD; no program in use; no buffer bound; all vertex attribute
  *                arrays disabled
- *     on exit    after gn_gles_next() has returned 0: all of these, polygon offset, clear depth and clear stencil are
- *                as in a new context, but the viewport, which is the target's. Nothing else was ever touched: textures,
- *                dither, clear colour, pixel store, attribute pointers but that of array 0
+ *     on exit    after gn_gles_next() has returned 0: all of these, cull face, polygon offset, depth clamp, clear depth
+ *                and clear stencil are as in a new context, but the viewport, which is the target's. Nothing else was
+ *                ever touched: textures, dither, clear colour, pixel store, attribute pointers but that of array 0
  *
  * Errors come as gn_result, sentences from gn_message() of the context; drivers' logs go to its port. Walking allocates
  * nothing and asks GL nothing. */
@@ -49,10 +49,18 @@ extern "C" {
 
 typedef struct gn_gles gn_gles;
 
+/* Start from {0}. */
+typedef struct gn_gles_desc {
+    gn_get_proc get_proc;
+    void *user;       /* its first argument */
+    const char *hide; /* capabilities to pretend absent: names with commas between. Borrowed for the call. [none] */
+} gn_gles_desc;
+
 /* Loads the functions, compiles the programs, makes the buffers. The GL context must be current, here and in every
- * call below but gn_gles_forget(). Leaves the state as gn_gles_next() does on exit. Returns GN_OK; GN_E_ARG;
- * GN_E_MEMORY; GN_E_DEVICE when a function is missing or a shader is refused. *gl is NULL unless GN_OK. */
-gn_result gn_gles_create(gn_context *context, gn_get_proc get_proc, void *user, gn_gles **gl);
+ * call below but gn_gles_forget(). Leaves the state as gn_gles_next() does on exit. What the port's setting GNOMON_HIDE
+ * names is hidden too. Returns GN_OK; GN_E_ARG, also for the name of no capability; GN_E_MEMORY; GN_E_DEVICE when a
+ * function is missing or a shader is refused. *gl is NULL unless GN_OK. */
+gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles **gl);
 
 /* Deletes what create and upload made. After gn_gles_forget() without any GL call. */
 void gn_gles_destroy(gn_gles *gl);
@@ -63,8 +71,24 @@ void gn_gles_forget(gn_gles *gl);
 /* The functions that it calls, for hosts that want the same table. Lives as long as gl. */
 const gn_gl *gn_gles_functions(const gn_gles *gl);
 
-/* Reads the bits and samples of the bound framebuffer; width and height are the caller's to give. */
-gn_target gn_gles_describe_target(const gn_gles *gl, uint32_t width, uint32_t height);
+/* Finds out what the bound framebuffer is and what can be done there: bits, what is advertised, and, by drawing and
+ * reading back, what is proven. Once for each target: the contents of the framebuffer are lost, and the GL waits. GL state
+ * is as before; no GL error may be pending, a query of time may not run, and pixels must not be packed into a buffer.
+ *
+ * width, height  of the framebuffer, which the GL does not tell
+ * saved          a text of gn_gles_save_target(): if it is of this driver and such a target, nothing is drawn. Anything
+ *                else, NULL too, is passed over
+ * Tells the port's log of each capability that is advertised and fails. Multisampled framebuffer objects, which cannot
+ * be read, are proven on a stand-in with one sample. Returns GN_OK; GN_E_ARG; GN_E_DEVICE when the framebuffer is not
+ * complete. */
+gn_result gn_gles_describe_target(gn_gles *gl, uint32_t width, uint32_t height, const char *saved, gn_target *target);
+
+/* What a failed proof saw, in the target described last: "0 - 1 is not 255 (0 255 0 255)". "" when it did not fail. */
+const char *gn_gles_symptom(const gn_gles *gl, gn_capability capability);
+
+/* Writes what was proven of the target described last as a text of some lines, to be given back on the next start. Like
+ * snprintf: always terminated when capacity > 0; returns the length that the whole has. */
+size_t gn_gles_save_target(const gn_gles *gl, const gn_target *target, char *text, size_t capacity);
 
 /* Puts a mesh's vertices into a buffer: 32 bytes a chunk vertex (near and far). Once before the first plan that has
  * it. The mesh must outlive its upload. Returns GN_OK (also when it was there already), GN_E_ARG, GN_E_MEMORY,

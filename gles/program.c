@@ -13,18 +13,18 @@ static void complain(const gn_gles *g, const char *name, const char *log)
     g->port.log(g->port.user, GN_LOG_ERROR, line);
 }
 
-static GLuint compile(gn_gles *g, GLenum type, const char *name, const char *source)
+static GLuint compile(gn_gles *g, GLenum type, const char *name, const char *defines, const char *source)
 {
     const gn_gl *gl = &g->gl;
-    const char *const preamble = type == GL_VERTEX_SHADER ? "#version 100\nprecision highp float;\n" GN_GLSL_POSITION
-                                                          : "#version 100\nprecision mediump float;\n";
-    const char *const text[2] = {preamble, source};
+    const char *const text[4] = {
+        "#version 100\n", defines,
+        type == GL_VERTEX_SHADER ? "precision highp float;\n" GN_GLSL_POSITION : "precision mediump float;\n", source};
     const GLuint shader = gl->glCreateShader(type);
     GLint ok = 0;
 
     if (!shader)
         return 0;
-    gl->glShaderSource(shader, 2, text, NULL);
+    gl->glShaderSource(shader, 4, text, NULL);
     gl->glCompileShader(shader);
     gl->glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (!ok) {
@@ -38,10 +38,11 @@ static GLuint compile(gn_gles *g, GLenum type, const char *name, const char *sou
     return shader;
 }
 
-GLuint gni_make_program(gn_gles *g, const char *name, const char *vertex, const char *fragment)
+GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const char *vertex, const char *fragment)
 {
     const gn_gl *gl = &g->gl;
-    const GLuint v = compile(g, GL_VERTEX_SHADER, name, vertex), f = compile(g, GL_FRAGMENT_SHADER, name, fragment);
+    const GLuint v = compile(g, GL_VERTEX_SHADER, name, "", vertex);
+    const GLuint f = compile(g, GL_FRAGMENT_SHADER, name, defines, fragment);
     GLuint program = v && f ? gl->glCreateProgram() : 0;
     GLint ok = 0;
 

@@ -6,17 +6,28 @@
 
 #include <string.h>
 
-static void switch_capability(const gn_gl *gl, GLenum capability, int on)
-{
-    if (on)
-        gl->glEnable(capability);
-    else
-        gl->glDisable(capability);
-}
+/* What is switched on and off, in the order of the bits of gn_gles.tests_on. Depth clamp is last: it is touched only
+ * where a plan asks for it, since elsewhere it is no enumerant. */
+static const GLenum switches[] = {GL_DEPTH_TEST,          GL_STENCIL_TEST, GL_BLEND,
+                                  GL_POLYGON_OFFSET_FILL, GL_CULL_FACE,    GNI_DEPTH_CLAMP};
+enum { SWITCHES = sizeof switches / sizeof switches[0] };
 
-static void send_face(const gn_gl *gl, GLenum side, const gni_face *face)
+static void send_switches(gn_gles *g, const gni_state *wanted)
 {
-    gl->glStencilOpSeparate(side, GL_KEEP, face->depth_fail, face->depth_pass);
+    const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) |
+                        (wanted->blend_source ? 4u : 0u) | (wanted->offset ? 8u : 0u) | (wanted->cull ? 16u : 0u) |
+                        (wanted->clamp ? 32u : 0u);
+    const unsigned changed = g->state_is_known ? on ^ g->tests_on : (g->clamps || wanted->clamp ? 63u : 31u);
+
+    for (int i = 0; i < SWITCHES; i++) {
+        if (!(changed >> i & 1))
+            continue;
+        if (on >> i & 1)
+            g->gl.glEnable(switches[i]);
+        else
+            g->gl.glDisable(switches[i]);
+    }
+    g->tests_on = on;
 }
 
 static int faces_differ(const gni_face *a, const gni_face *b)
@@ -24,26 +35,43 @@ static int faces_differ(const gni_face *a, const gni_face *b)
     return a->depth_fail != b->depth_fail || a->depth_pass != b->depth_pass;
 }
 
+static GLenum operation(GLenum given)
+{
+    return given ? given : GL_KEEP;
+}
+
+/* Where both faces do the same the old function says so: it works where two-sided stencil does not. */
+static void send_stencil(gn_gles *g, const gni_state *wanted)
+{
+    const gn_gl *gl = &g->gl;
+    gni_state *last = &g->state;
+    const int never_sent = !last->stencil_func;
+
+    if (wanted->stencil_func != last->stencil_func || wanted->stencil_reference != last->stencil_reference)
+        gl->glStencilFunc(wanted->stencil_func, wanted->stencil_reference, ~0u);
+    if (never_sent || faces_differ(&wanted->front, &last->front) || faces_differ(&wanted->back, &last->back)) {
+        const gni_face *front = &wanted->front, *back = &wanted->back;
+
+        if (faces_differ(front, back)) {
+            gl->glStencilOpSeparate(GL_FRONT, GL_KEEP, operation(front->depth_fail), operation(front->depth_pass));
+            gl->glStencilOpSeparate(GL_BACK, GL_KEEP, operation(back->depth_fail), operation(back->depth_pass));
+        } else {
+            gl->glStencilOp(GL_KEEP, operation(front->depth_fail), operation(front->depth_pass));
+        }
+    }
+    last->stencil_func = wanted->stencil_func;
+    last->stencil_reference = wanted->stencil_reference;
+    last->front = wanted->front;
+    last->back = wanted->back;
+}
+
 void gni_set_state(gn_gles *g, const gni_state *wanted)
 {
     const gn_gl *gl = &g->gl;
-    const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) |
-                        (wanted->blend_source ? 4u : 0u) | (wanted->offset ? 8u : 0u);
     gni_state *last = &g->state; /* what GL has; a detail never sent since a reset is 0 */
     const int all = !g->state_is_known;
 
-    if (all || on != g->tests_on) {
-        const unsigned changed = all ? 15u : on ^ g->tests_on;
-
-        if (changed & 1)
-            switch_capability(gl, GL_DEPTH_TEST, (on & 1) != 0);
-        if (changed & 2)
-            switch_capability(gl, GL_STENCIL_TEST, (on & 2) != 0);
-        if (changed & 4)
-            switch_capability(gl, GL_BLEND, (on & 4) != 0);
-        if (changed & 8)
-            switch_capability(gl, GL_POLYGON_OFFSET_FILL, (on & 8) != 0);
-    }
+    send_switches(g, wanted);
     if (all || wanted->color_write != last->color_write)
         gl->glColorMask(wanted->color_write, wanted->color_write, wanted->color_write, wanted->color_write);
     if (all || wanted->depth_write != last->depth_write)
@@ -54,19 +82,8 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         gl->glDepthFunc(wanted->depth_func);
         last->depth_func = wanted->depth_func;
     }
-    if (wanted->stencil_func) {
-        const int never_sent = !last->stencil_func;
-
-        if (wanted->stencil_func != last->stencil_func)
-            gl->glStencilFuncSeparate(GL_FRONT_AND_BACK, wanted->stencil_func, 0, ~0u);
-        if (never_sent || faces_differ(&wanted->front, &last->front))
-            send_face(gl, GL_FRONT, &wanted->front);
-        if (never_sent || faces_differ(&wanted->back, &last->back))
-            send_face(gl, GL_BACK, &wanted->back);
-        last->stencil_func = wanted->stencil_func;
-        last->front = wanted->front;
-        last->back = wanted->back;
-    }
+    if (wanted->stencil_func)
+        send_stencil(g, wanted);
     if (wanted->blend_source &&
         (wanted->blend_source != last->blend_source || wanted->blend_destination != last->blend_destination)) {
         gl->glBlendFunc(wanted->blend_source, wanted->blend_destination);
@@ -77,10 +94,13 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         gl->glPolygonOffset(0.0f, (GLfloat)wanted->offset);
         last->offset = wanted->offset;
     }
+    if (wanted->cull && wanted->cull != last->cull) {
+        gl->glCullFace(wanted->cull);
+        last->cull = wanted->cull;
+    }
     last->color_write = wanted->color_write;
     last->depth_write = wanted->depth_write;
     last->stencil_write = wanted->stencil_write;
-    g->tests_on = on;
     g->state_is_known = 1;
 }
 
@@ -90,7 +110,6 @@ void gni_reset_state(gn_gles *g)
 
     memset(&g->state, 0, sizeof g->state);
     g->state_is_known = 0;
-    gl->glDisable(GL_CULL_FACE);
     gl->glDisable(GL_SCISSOR_TEST);
     gl->glFrontFace(GL_CCW);
     gl->glBlendEquation(GL_FUNC_ADD);
@@ -100,8 +119,14 @@ void gni_reset_state(gn_gles *g)
 
 void gni_leave_state(gn_gles *g)
 {
-    static const gni_state fresh = {GL_TRUE, GL_TRUE, GL_LESS, GL_ALWAYS, ~0u, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP},
-                                    GL_ONE,  GL_ZERO, 0};
+    static const gni_state fresh = {.color_write = GL_TRUE,
+                                    .depth_write = GL_TRUE,
+                                    .stencil_write = ~0u,
+                                    .depth_func = GL_LESS,
+                                    .stencil_func = GL_ALWAYS,
+                                    .blend_source = GL_ONE,
+                                    .blend_destination = GL_ZERO,
+                                    .cull = GL_BACK};
     const gn_gl *gl = &g->gl;
 
     gni_reset_state(g);
@@ -109,6 +134,7 @@ void gni_leave_state(gn_gles *g)
     gl->glDisable(GL_DEPTH_TEST);
     gl->glDisable(GL_STENCIL_TEST);
     gl->glDisable(GL_BLEND);
+    gl->glDisable(GL_CULL_FACE);
     gl->glPolygonOffset(0.0f, 0.0f);
     gl->glClearDepthf(1.0f);
     gl->glClearStencil(0);

@@ -1,10 +1,11 @@
 /* walk.c - walks a plan: decides nothing, does each step as data says, and stops where the host is to draw.
  *
- * Counting (Everitt 2002, section 3.3, with two-sided, wrapping stencil): a volume's surface faces outward. z-fail
- * counts what lies behind the visible surface, back faces up and front faces down; z-pass what lies before it, the
- * other way round. Depth is compared LESS: a light cap that is the visible surface itself counts as behind it, and that
- * is why a surface is unlit on the side turned away from the light and lit on the other. Wrapping keeps the order of
- * draws from mattering.
+ * Counting (Everitt 2002, section 3.3): a volume's surface faces outward. z-fail counts what lies behind the visible
+ * surface, back faces up and front faces down; z-pass what lies before it, the other way round. Depth is compared LESS: a
+ * light cap that is the visible surface itself counts as behind it, and that is why a surface is unlit on the side
+ * turned away from the light and lit on the other. Where stencil is two-sided one draw counts both ways, else two culled
+ * draws do. Wrapping keeps their order from mattering; counts that stop at the ends start in the middle (the plan's
+ * layout says where, and how far they reach).
  *
  * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other
  * face of a fold, lies less than a step behind the visible surface, and interpolation may put it before: the cap
@@ -13,26 +14,63 @@
  * of the test scenes are wrong by either method on llvmpipe, with it none (make truth). */
 #include "gni_gles.h"
 
-/* clang-format off */
-#define UP         GL_INCR_WRAP
-#define DOWN       GL_DECR_WRAP
-#define NO_STENCIL 0, 0, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP}
-#define LIT        GL_EQUAL, 0, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP}
-/* clang-format on */
+static const gni_state ambient = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .depth_func = GL_LESS};
+static const gni_state light = {
+    .color_write = GL_TRUE, .depth_func = GL_EQUAL, .blend_source = GL_ONE, .blend_destination = GL_ONE};
+static const gni_state final = {.color_write = GL_TRUE,
+                                .depth_func = GL_LESS,
+                                .blend_source = GL_SRC_ALPHA,
+                                .blend_destination = GL_ONE_MINUS_SRC_ALPHA};
+static const gni_state unmasked = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .stencil_write = ~0u};
 
-static const gni_state ambient = {GL_TRUE, GL_TRUE, GL_LESS, NO_STENCIL, 0, 0, 0};
-static const gni_state light_masked = {GL_TRUE, GL_FALSE, GL_EQUAL, LIT, GL_ONE, GL_ONE, 0};
-static const gni_state light_unmasked = {GL_TRUE, GL_FALSE, GL_EQUAL, NO_STENCIL, GL_ONE, GL_ONE, 0};
-static const gni_state final = {GL_TRUE, GL_FALSE, GL_LESS, NO_STENCIL, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, 0};
-static const gni_state zero = {GL_FALSE, GL_FALSE, 0, GL_ALWAYS, ~0u, {GL_ZERO, GL_ZERO}, {GL_ZERO, GL_ZERO}, 0, 0, 0};
+static gni_state light_under_mask(const gn_stencil_layout *layout)
+{
+    gni_state s = light;
 
-/* [z-pass, z-fail][upright, swapped: mirrored or turned, not both] */
-static const gni_state count[2][2] = {
-    {{GL_FALSE, GL_FALSE, GL_LESS, GL_ALWAYS, ~0u, {GL_KEEP, UP}, {GL_KEEP, DOWN}, 0, 0, 1},
-     {GL_FALSE, GL_FALSE, GL_LESS, GL_ALWAYS, ~0u, {GL_KEEP, DOWN}, {GL_KEEP, UP}, 0, 0, 1}},
-    {{GL_FALSE, GL_FALSE, GL_LESS, GL_ALWAYS, ~0u, {DOWN, GL_KEEP}, {UP, GL_KEEP}, 0, 0, 1},
-     {GL_FALSE, GL_FALSE, GL_LESS, GL_ALWAYS, ~0u, {UP, GL_KEEP}, {DOWN, GL_KEEP}, 0, 0, 1}},
-};
+    s.stencil_func = GL_EQUAL;
+    s.stencil_reference = layout->reference;
+    return s;
+}
+
+/* The quad that makes every count the reference again. */
+static gni_state reset(const gn_stencil_layout *layout)
+{
+    const gni_face replace = {GL_REPLACE, GL_REPLACE};
+    const gni_state s = {.stencil_write = ~0u,
+                         .stencil_func = GL_ALWAYS,
+                         .stencil_reference = layout->reference,
+                         .front = replace,
+                         .back = replace};
+
+    return s;
+}
+
+/* Which faces a draw counts: both at once where stencil is two-sided, else those that count up, then the others. */
+typedef enum half { BOTH, RISING, FALLING } half;
+
+/* swapped: fronts count as backs, since the object is mirrored or the triangles are turned caps (not both). */
+static gni_state counting(const gn_plan *plan, int zfail, int swapped, half h)
+{
+    const gn_stencil_layout *layout = &plan->stencil;
+    const GLenum up = layout->wrap ? GL_INCR_WRAP : GL_INCR, down = layout->wrap ? GL_DECR_WRAP : GL_DECR;
+    const gni_face rise = {zfail ? up : 0, zfail ? 0 : up}, fall = {zfail ? down : 0, zfail ? 0 : down};
+    const int backs_rise = zfail != swapped;
+    gni_state s = {.stencil_write = ~0u,
+                   .depth_func = GL_LESS,
+                   .stencil_func = GL_ALWAYS,
+                   .stencil_reference = layout->reference,
+                   .offset = 1,
+                   .clamp = plan->far_ends == GN_FAR_CLAMPED};
+
+    if (h == BOTH) {
+        s.front = backs_rise ? fall : rise;
+        s.back = backs_rise ? rise : fall;
+    } else {
+        s.front = s.back = h == RISING ? rise : fall;
+        s.cull = (h == RISING) == backs_rise ? GL_FRONT : GL_BACK;
+    }
+    return s;
+}
 
 gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
 {
@@ -45,6 +83,7 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
             return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the mesh of object %lu was not uploaded",
                            (unsigned long)plan->records[i].object);
     g->plan = plan;
+    g->clamps = plan->far_ends == GN_FAR_CLAMPED;
     g->at = 0;
     if (plan->index_count) {
         g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
@@ -57,20 +96,19 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
 
 static void clear(gn_gles *g)
 {
-    static const gni_state unmasked = {GL_TRUE, GL_TRUE, 0, 0, ~0u, {GL_KEEP, GL_KEEP}, {GL_KEEP, GL_KEEP}, 0, 0, 0};
-
     gni_set_state(g, &unmasked);
     g->gl.glClearDepthf((GLfloat)g->plan->clear_depth);
-    g->gl.glClearStencil(0);
+    g->gl.glClearStencil(g->plan->stencil.reference);
     g->gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-static void zero_stencil(gn_gles *g)
+static void reset_stencil(gn_gles *g)
 {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, none[4] = {0, 0, 0, 0};
     const gn_gl *gl = &g->gl;
+    const gni_state state = reset(&g->plan->stencil);
 
-    gni_set_state(g, &zero);
+    gni_set_state(g, &state);
     gni_begin_volumes(g, none);
     gl->glBindBuffer(GL_ARRAY_BUFFER, g->quad);
     gl->glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float), NULL);
@@ -79,32 +117,52 @@ static void zero_stencil(gn_gles *g)
     gni_end_volumes(g);
 }
 
+static void count_records(gn_gles *g, uint32_t first, uint32_t end, int zfail, half h)
+{
+    for (uint32_t i = first; i < end; i++)
+        for (int turned = 0; turned < 2; turned++) {
+            const gn_record *r = &g->plan->records[i];
+            gni_state state;
+
+            if (turned && !r->turned_cap_count)
+                continue;
+            state = counting(g->plan, zfail, r->mirrored ^ turned, h);
+            gni_set_state(g, &state);
+            gni_draw_record(g, g->plan, r, turned);
+        }
+}
+
+/* One-sided, a caster at a time: up first, so that counts which stop at the ends stray by one caster's layers only. */
 static void count_volumes(gn_gles *g, const gn_step *step)
 {
     static const float none[4] = {0, 0, 0, 0};
     const gn_plan *plan = g->plan;
     const int zfail = plan->lights[step->light].method == GN_METHOD_ZFAIL;
+    const uint32_t end = step->first_record + step->record_count;
 
     gni_begin_volumes(g, none);
-    for (uint32_t i = step->first_record; i < step->first_record + step->record_count; i++)
-        for (int turned = 0; turned < 2; turned++) {
-            if (turned && !plan->records[i].turned_cap_count)
-                continue;
-            gni_set_state(g, &count[zfail][plan->records[i].mirrored ^ turned]);
-            gni_draw_record(g, plan, &plan->records[i], turned);
+    for (uint32_t i = step->first_record, next; i < end; i = next) {
+        for (next = i + 1; next < end && plan->records[next].object == plan->records[i].object;)
+            next++;
+        if (plan->stencil.two_sided) {
+            count_records(g, i, next, zfail, BOTH);
+        } else {
+            count_records(g, i, next, zfail, RISING);
+            count_records(g, i, next, zfail, FALLING);
         }
+    }
     gni_end_volumes(g);
 }
 
-static const gni_state *state_for(const gn_step *step)
+static gni_state state_for(const gn_plan *plan, const gn_step *step)
 {
     switch (step->draw) {
     case GN_DRAW_AMBIENT:
-        return &ambient;
+        return ambient;
     case GN_DRAW_LIGHT:
-        return step->receivers ? &light_masked : &light_unmasked;
+        return step->receivers ? light_under_mask(&plan->stencil) : light;
     default:
-        return &final;
+        return final;
     }
 }
 
@@ -116,19 +174,21 @@ int gn_gles_next(gn_gles *g, gn_step *out)
     g->gl.glViewport(0, 0, (GLsizei)g->plan->target.width, (GLsizei)g->plan->target.height);
     while (g->at < g->plan->step_count) {
         const gn_step *step = &g->plan->steps[g->at++];
+        gni_state state;
 
         switch (step->kind) {
         case GN_STEP_CLEAR:
             clear(g);
             break;
         case GN_STEP_ZERO:
-            zero_stencil(g);
+            reset_stencil(g);
             break;
         case GN_STEP_VOLUMES:
             count_volumes(g, step);
             break;
         case GN_STEP_DRAW:
-            gni_set_state(g, state_for(step));
+            state = state_for(g->plan, step);
+            gni_set_state(g, &state);
             g->gl.glUseProgram(0);
             g->gl.glBindBuffer(GL_ARRAY_BUFFER, 0);
             g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
@@ -136,7 +196,8 @@ int gn_gles_next(gn_gles *g, gn_step *out)
             return 1;
         }
     }
-    g->plan = NULL;
     gni_leave_state(g);
+    g->plan = NULL;
+    g->clamps = 0;
     return 0;
 }

@@ -1,4 +1,4 @@
-/* gn_port.h - all that gnomon asks of a machine: memory, a log, a clock. New board: copy port/port_template.c.
+/* gn_port.h - all that gnomon asks of a machine: memory, a log, a clock, settings. New board: copy port/port_template.c.
  *
  * threads   gnomon calls a port only from inside the calls that a host makes, on the host's thread
  * lifetime  the struct is copied when a context is made; what `user` points to must outlive the context */
@@ -11,7 +11,7 @@
 extern "C" {
 #endif
 
-#define GN_PORT_VERSION 1
+#define GN_PORT_VERSION 2
 
 typedef enum gn_log_level { GN_LOG_ERROR, GN_LOG_WARNING, GN_LOG_INFO } gn_log_level;
 
@@ -26,9 +26,12 @@ typedef struct gn_port {
     void (*log)(void *user, int level, const char *line);
     /* Microseconds that never go backwards; only differences are used. [no time is measured] */
     uint64_t (*now_us)(void *user);
+    /* Since version 2. A setting that comes from outside the program, such as an environment variable: GNOMON_HIDE names
+     * capabilities to pretend absent. NULL where there is none. [no settings] */
+    const char *(*setting)(void *user, const char *name);
 } gn_port;
 
-/* The port for hosted systems: realloc, standard error, the C clock. */
+/* The port for hosted systems: realloc, standard error, the C clock, environment variables. */
 gn_port gn_port_libc(void);
 
 #ifdef __cplusplus

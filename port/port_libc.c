@@ -1,4 +1,5 @@
-/* port_libc.c - the port for any hosted system: realloc and free, lines on standard error, a monotonic clock.
+/* port_libc.c - the port for any hosted system: realloc and free, lines on standard error, a monotonic clock,
+ * environment variables.
  *
  * C99 alone has no monotonic wall clock, so POSIX's is used where it is declared and processor time elsewhere. */
 #if defined(__unix__) || defined(__APPLE__)
@@ -41,9 +42,15 @@ static uint64_t libc_now_us(void *user)
     return (uint64_t)clock() * 1000000u / CLOCKS_PER_SEC;
 }
 
+static const char *libc_setting(void *user, const char *name)
+{
+    (void)user;
+    return getenv(name);
+}
+
 gn_port gn_port_libc(void)
 {
-    const gn_port port = {GN_PORT_VERSION, NULL, libc_resize, libc_log, libc_now_us};
+    const gn_port port = {GN_PORT_VERSION, NULL, libc_resize, libc_log, libc_now_us, libc_setting};
 
     return port;
 }

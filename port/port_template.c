@@ -61,7 +61,7 @@ static uint64_t board_ticks_us(void *user)
 
 gn_port gn_port_template(gn_port_block *block)
 {
-    const gn_port port = {GN_PORT_VERSION, block, template_resize, board_puts, board_ticks_us};
+    const gn_port port = {GN_PORT_VERSION, block, template_resize, board_puts, board_ticks_us, NULL};
 
     return port;
 }

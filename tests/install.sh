@@ -18,7 +18,7 @@ int main(void)
     gn_context *context;
     gn_mesh *mesh;
     int ok = gn_context_create(NULL, &context) == GN_OK && gn_mesh_create(context, &desc, &mesh) == GN_OK &&
-             gn_mesh_get_info(mesh)->edge_count == 3 && gn_gles_create(context, NULL, NULL, NULL) == GN_E_ARG;
+             gn_mesh_get_info(mesh)->edge_count == 3 && gn_gles_create(context, NULL, NULL) == GN_E_ARG;
     gn_mesh_destroy(mesh);
     gn_context_destroy(context);
     return !ok;

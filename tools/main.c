@@ -5,9 +5,23 @@
 
 #include "gnomon.h"
 
-const char help_methods[] = "usage: gnomon methods\n"
-                            "\n"
-                            "Lists the methods by name: whether they are exact, what they are, what they need.\n";
+const char help_methods[] =
+    "usage: gnomon methods\n"
+    "\n"
+    "Lists the methods by name: whether they are exact, what they are, what they need. A stencil\n"
+    "method's name may end in /one-sided: volumes are then drawn twice, culled, as on boards without\n"
+    "two-sided stencil.\n";
+
+static void print_set(const char *what, uint32_t set)
+{
+    const char *separator = what;
+
+    for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
+        if (set >> c & 1) {
+            printf("%s%s", separator, gn_capability_name((gn_capability)c));
+            separator = ", ";
+        }
+}
 
 int command_methods(int count, char **arguments)
 {
@@ -18,8 +32,10 @@ int command_methods(int count, char **arguments)
     for (int m = 0; m < GN_METHOD_COUNT; m++) {
         const gn_method_info *info = gn_method_describe((gn_method)m);
 
-        printf("%-8s %-8s %s\n%-17s needs: %s\n", info->name, info->exact ? "exact" : "inexact", info->summary, "",
-               info->needs);
+        printf("%-8s %-8s %s\n", info->name, info->exact ? "exact" : "inexact", info->summary);
+        print_set("                  needs ", info->needs);
+        print_set("; makes do without ", info->likes);
+        printf("%s", info->needs ? "\n" : "");
     }
     return EXIT_DONE;
 }

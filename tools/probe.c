@@ -1,5 +1,5 @@
-/* probe.c - `gnomon probe`: what the context is, and which methods it can do. It never fails because something is
- * absent. */
+/* probe.c - `gnomon probe`: what the context is, what it says that it can do and what of that is true, and which methods
+ * that makes possible. It never fails because something is absent. */
 #include "command.h"
 
 #include <cjson/cJSON.h>
@@ -13,9 +13,13 @@
 const char help_probe[] =
     "usage: gnomon probe [options]\n"
     "\n"
-    "Prints the GL contexts that this machine gives, with their limits, bits, and the methods they can do.\n"
+    "Prints the GL contexts that this machine gives: driver, limits, bits; for each capability whether it is "
+    "advertised,\n"
+    "proven (drawn into a few pixels and read back) or hidden; and for each method whether it is possible, or what is\n"
+    "missing.\n"
     "\n"
     "  --platform NAME       only this one: egl or osmesa [all]\n"
+    "  --hide CAP[,CAP...]   pretends that capabilities are absent, as GNOMON_HIDE in the environment does\n"
     "  --json                for machines\n"
     "  --help                this text\n";
 
@@ -29,11 +33,12 @@ static const struct {
               {"max_vertex_uniform_vectors", GL_MAX_VERTEX_UNIFORM_VECTORS},
               {"max_fragment_uniform_vectors", GL_MAX_FRAGMENT_UNIFORM_VECTORS}};
 
-/* Why a method cannot draw into the target; NULL when it can. */
-static const char *obstacle(gn_context *context, gn_method method, const gn_target *target)
+/* Whether a method can draw into the target, and how, or why not: what the plan of an empty frame says. */
+static void add_method(cJSON *to, gn_context *context, gn_method method, const gn_target *target)
 {
     static double memory[4096];
     gn_light light = {GN_LIGHT_POINT, {0, 0, 0}, {0, 0, 0}};
+    char text[320];
     gn_scene s;
     const gn_plan *plan;
 
@@ -47,14 +52,48 @@ static const char *obstacle(gn_context *context, gn_method method, const gn_targ
     s.light_count = 1;
     s.target = *target;
     s.method = method;
-    return gn_plan_make(context, &s, memory, sizeof memory, &plan) == GN_OK ? NULL : gn_message(context);
+    if (gn_plan_make(context, &s, memory, sizeof memory, &plan) != GN_OK) {
+        cJSON_AddStringToObject(to, gn_method_describe(method)->name, gn_message(context));
+        return;
+    }
+    snprintf(text, sizeof text, "possible%s", plan->lights[0].reason + strcspn(plan->lights[0].reason, ";"));
+    cJSON_AddStringToObject(to, gn_method_describe(method)->name, text);
 }
 
-static cJSON *describe(platform *p, gn_context *context, const gn_gles *gles)
+static void add_capabilities(cJSON *to, const gn_gles *gles, const gn_target *t)
+{
+    cJSON *const all = cJSON_AddObjectToObject(to, "capabilities");
+
+    for (int c = 0; c < GN_CAPABILITY_COUNT; c++) {
+        cJSON *const o = cJSON_AddObjectToObject(all, gn_capability_name((gn_capability)c));
+        const char *const symptom = gn_gles_symptom(gles, (gn_capability)c);
+
+        cJSON_AddBoolToObject(o, "advertised", t->advertised >> c & 1);
+        cJSON_AddBoolToObject(o, "proven", t->proven >> c & 1);
+        cJSON_AddBoolToObject(o, "hidden", t->hidden >> c & 1);
+        if (symptom[0])
+            cJSON_AddStringToObject(o, "symptom", symptom);
+    }
+}
+
+static void add_bits(cJSON *to, const gn_target *t)
+{
+    cJSON *const bits = cJSON_AddObjectToObject(to, "bits");
+    const struct {
+        const char *name;
+        int bits;
+    } rows[] = {{"red", t->red_bits},     {"green", t->green_bits},    {"blue", t->blue_bits},
+                {"alpha", t->alpha_bits}, {"depth", t->depth_bits},    {"stencil", t->stencil_bits},
+                {"samples", t->samples},  {"mediump", t->mediump_bits}};
+
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        cJSON_AddNumberToObject(bits, rows[i].name, rows[i].bits);
+}
+
+static cJSON *describe(platform *p, gn_context *context, const gn_gles *gles, const gn_target *t)
 {
     const gn_gl *gl = gn_gles_functions(gles);
-    const gn_target t = gn_gles_describe_target(gles, p->actual.width, p->actual.height);
-    cJSON *const o = cJSON_CreateObject(), *bits, *methods, *numbers;
+    cJSON *const o = cJSON_CreateObject(), *methods, *numbers;
 
     cJSON_AddStringToObject(o, "platform", p->kind->name);
     cJSON_AddStringToObject(o, "way", p->detail);
@@ -63,14 +102,7 @@ static cJSON *describe(platform *p, gn_context *context, const gn_gles *gles)
 
         cJSON_AddStringToObject(o, strings[i].name, text ? (const char *)text : "");
     }
-    bits = cJSON_AddObjectToObject(o, "bits");
-    cJSON_AddNumberToObject(bits, "red", t.red_bits);
-    cJSON_AddNumberToObject(bits, "green", t.green_bits);
-    cJSON_AddNumberToObject(bits, "blue", t.blue_bits);
-    cJSON_AddNumberToObject(bits, "alpha", t.alpha_bits);
-    cJSON_AddNumberToObject(bits, "depth", t.depth_bits);
-    cJSON_AddNumberToObject(bits, "stencil", t.stencil_bits);
-    cJSON_AddNumberToObject(bits, "samples", t.samples);
+    add_bits(o, t);
     numbers = cJSON_AddObjectToObject(o, "limits");
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) {
         GLint value = 0;
@@ -80,27 +112,29 @@ static cJSON *describe(platform *p, gn_context *context, const gn_gles *gles)
     }
     while (gl->glGetError() != GL_NO_ERROR) /* a limit that the context does not know stays 0 */
         continue;
+    add_capabilities(o, gles, t);
     methods = cJSON_AddObjectToObject(o, "methods");
-    for (int m = GN_METHOD_AUTO + 1; m < GN_METHOD_COUNT; m++) {
-        const char *const why = obstacle(context, (gn_method)m, &t);
-
-        cJSON_AddStringToObject(methods, gn_method_describe((gn_method)m)->name, why ? why : "possible");
-    }
+    for (int m = GN_METHOD_AUTO + 1; m < GN_METHOD_COUNT; m++)
+        add_method(methods, context, (gn_method)m, t);
     return o;
 }
 
-static cJSON *probe(const platform_kind *kind)
+static cJSON *probe(const platform_kind *kind, const char *hide)
 {
     const platform_desc wanted = {64, 64, 8, 8, 8, 8, 24, 8};
     char message[PLATFORM_MESSAGE];
     platform *p = platform_open(kind->name, &wanted, message);
+    const gn_gles_desc desc = {platform_get_proc, p, hide};
+    gn_port port = gn_port_libc();
     gn_context *context = NULL;
     gn_gles *gles = NULL;
+    gn_target target;
     cJSON *o = NULL;
 
-    if (p && gn_context_create(NULL, &context) == GN_OK &&
-        gn_gles_create(context, platform_get_proc, p, &gles) == GN_OK)
-        o = describe(p, context, gles);
+    port.log = NULL; /* what fails stands in the table */
+    if (p && gn_context_create(&port, &context) == GN_OK && gn_gles_create(context, &desc, &gles) == GN_OK &&
+        gn_gles_describe_target(gles, p->actual.width, p->actual.height, NULL, &target) == GN_OK)
+        o = describe(p, context, gles, &target);
     if (!o) {
         o = cJSON_CreateObject();
         cJSON_AddStringToObject(o, "platform", kind->name);
@@ -112,14 +146,32 @@ static cJSON *probe(const platform_kind *kind)
     return o;
 }
 
+enum { NAMES = 32 }; /* width of the first column */
+
+static void print_capability(const cJSON *row)
+{
+    const cJSON *const symptom = cJSON_GetObjectItem(row, "symptom");
+
+    printf("  %-*s%-12s%-9s%-8s%s\n", NAMES - 2, row->string,
+           cJSON_IsTrue(cJSON_GetObjectItem(row, "advertised")) ? "yes" : "no",
+           cJSON_IsTrue(cJSON_GetObjectItem(row, "proven")) ? "yes" : "no",
+           cJSON_IsTrue(cJSON_GetObjectItem(row, "hidden")) ? "yes" : "no", symptom ? symptom->valuestring : "");
+}
+
 static void print_table(const cJSON *o, int indent)
 {
     const cJSON *row;
 
     cJSON_ArrayForEach (row, o) {
-        printf("%*s%-*s", indent, "", 30 - indent, row->string);
+        const int is_set = strcmp(row->string, "capabilities") == 0;
+
+        if (indent && cJSON_IsObject(row)) {
+            print_capability(row);
+            continue;
+        }
+        printf("%*s%-*s", indent, "", NAMES - indent, row->string);
         if (cJSON_IsObject(row)) {
-            printf("\n");
+            printf("%s\n", is_set ? "advertised  proven   hidden" : "");
             print_table(row, indent + 2);
         } else if (cJSON_IsNumber(row)) {
             printf("%g\n", row->valuedouble);
@@ -131,16 +183,24 @@ static void print_table(const cJSON *o, int indent)
 
 int command_probe(int count, char **arguments)
 {
-    const char *only = NULL;
+    const char *only = NULL, *hide = NULL, *unknown;
     int json = 0, known = 0;
-    const option options[] = {{"--platform", OPTION_TEXT, &only, 0, 0}, {"--json", OPTION_FLAG, &json, 0, 0}};
+    const option options[] = {{"--platform", OPTION_TEXT, &only, 0, 0},
+                              {"--hide", OPTION_TEXT, &hide, 0, 0},
+                              {"--json", OPTION_FLAG, &json, 0, 0}};
+    uint32_t hidden = 0;
     cJSON *all;
     char *text;
 
-    count = parse_options(count, arguments, options, 2);
+    count = parse_options(count, arguments, options, 3);
     if (count != 0) {
         if (count > 0)
             say("probe: takes no names (%s)", arguments[0]);
+        return EXIT_USAGE;
+    }
+    unknown = gn_capability_parse(hide, &hidden);
+    if (unknown) {
+        say("--hide: no capability has that name: see `gnomon probe` (%s)", unknown);
         return EXIT_USAGE;
     }
     all = cJSON_CreateArray();
@@ -150,7 +210,7 @@ int command_probe(int count, char **arguments)
         if (only && strcmp(only, platform_kinds[i]->name) != 0)
             continue;
         known = 1;
-        o = probe(platform_kinds[i]);
+        o = probe(platform_kinds[i], hide);
         cJSON_AddItemToArray(all, o);
         if (!json) {
             print_table(o, 0);

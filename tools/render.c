@@ -24,6 +24,8 @@ const char help_render[] = "usage: gnomon render SCENE.gltf|SCENE.glb [options]\
                            "alpha where a surface is\n"
                            "  --method NAME         see `gnomon methods` [auto]\n"
                            "  --platform NAME       egl or osmesa [the first that works]\n"
+                           "  --hide CAP[,CAP...]   pretends that capabilities are absent: `gnomon probe` names them\n"
+                           "  --explain             prints why each light got its method\n"
                            "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
                            "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
                            "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
@@ -33,9 +35,10 @@ const char help_render[] = "usage: gnomon render SCENE.gltf|SCENE.glb [options]\
                            "  --help                this text\n";
 
 typedef struct job {
-    const char *frame, *mask_dir, *method_name, *platform, *show, *plan, *report;
+    const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report;
     long size[2], frames;
     double spin, exposure;
+    int explain, one_sided;
     gn_method method;
 } job;
 
@@ -105,7 +108,8 @@ static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
         return EXIT_FAILED;
     }
     for (uint32_t i = 0; i < s->scene->light_count; i++) {
-        const int status = stage_plan(s, j->method, i, 1, 1, message);
+        const stage_wish wish = {j->method, j->one_sided, 1, i, 1};
+        const int status = stage_plan(s, &wish, message);
 
         if (status != 0 || !stage_draw_mask(s, i, message)) {
             say("light %u: %s", (unsigned)i, message);
@@ -137,8 +141,9 @@ static int write_plan(const stage *s, const char *path)
 /* One frame, drawn and waited for. Returns 0 or an exit status. */
 static int timed_frame(stage *s, const job *j, int casting, double *ms, char message[SCENE_MESSAGE])
 {
+    const stage_wish wish = {j->method, j->one_sided, casting, 0, (uint32_t)s->scene->light_count};
     const double start = now_ms();
-    const int status = stage_plan(s, j->method, 0, (uint32_t)s->scene->light_count, casting, message);
+    const int status = stage_plan(s, &wish, message);
 
     if (status != 0)
         return status;
@@ -221,6 +226,9 @@ static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_M
 
 static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
 {
+    if (j->explain)
+        for (uint32_t i = 0; i < s->plan->light_count; i++)
+            printf("light %u: %s: %s\n", (unsigned)i, gn_plan_method_name(s->plan, i), s->plan->lights[i].reason);
     if (s->plan->endless_casters)
         say("%u shadows are left out: the light is too close to too many large triangles for an orthographic camera",
             (unsigned)s->plan->endless_casters);
@@ -253,7 +261,8 @@ static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE
 
 static int run(const job *j, const char *path)
 {
-    const stage_options options = {j->platform, (uint32_t)j->size[0], (uint32_t)j->size[1], j->exposure, 24, 8};
+    const stage_options options = {
+        j->platform, (uint32_t)j->size[0], (uint32_t)j->size[1], j->exposure, 24, 8, j->hide, 0.0, NULL};
     char message[SCENE_MESSAGE] = "";
     measured m;
     scene loaded;
@@ -296,13 +305,17 @@ static int one_of(const char *word, const char *const *words)
 int command_render(int count, char **arguments)
 {
     static const char *const shows[] = {"volumes", "silhouette", "mask", NULL};
-    job j = {NULL, NULL, "auto", NULL, NULL, NULL, NULL, {800, 600}, 1, 0.0, 0.0, GN_METHOD_AUTO};
+    job j = {.method_name = "auto", .size = {800, 600}, .frames = 1};
+    uint32_t hidden = 0;
+    const char *unknown;
     const option options[] = {
         {"-o", OPTION_TEXT, &j.frame, 0, 0},
         {"--size", OPTION_SIZE, j.size, 1, 16384},
         {"--mask-dir", OPTION_TEXT, &j.mask_dir, 0, 0},
         {"--method", OPTION_TEXT, &j.method_name, 0, 0},
         {"--platform", OPTION_TEXT, &j.platform, 0, 0},
+        {"--hide", OPTION_TEXT, &j.hide, 0, 0},
+        {"--explain", OPTION_FLAG, &j.explain, 0, 0},
         {"--frames", OPTION_WHOLE, &j.frames, 1, 1000000},
         {"--spin", OPTION_NUMBER, &j.spin, -1e6, 1e6},
         {"--exposure", OPTION_NUMBER, &j.exposure, 1e-12, 1e12},
@@ -318,13 +331,18 @@ int command_render(int count, char **arguments)
         say("render: takes one scene (%d given)", kept);
         return EXIT_USAGE;
     }
-    if (!j.frame && !j.mask_dir && !j.plan && !j.report) {
-        say("render: nothing to write: give -o, --mask-dir, --plan or --report (none given)");
+    if (!j.frame && !j.mask_dir && !j.plan && !j.report && !j.explain) {
+        say("render: nothing to do: give -o, --mask-dir, --plan, --report or --explain (none given)");
         return EXIT_USAGE;
     }
-    j.method = gn_method_by_name(j.method_name);
+    j.method = gn_method_by_name(j.method_name, &j.one_sided);
     if (j.method == GN_METHOD_COUNT) {
         say("--method: no method has that name: see `gnomon methods` (%s)", j.method_name);
+        return EXIT_USAGE;
+    }
+    unknown = gn_capability_parse(j.hide, &hidden);
+    if (unknown) {
+        say("--hide: no capability has that name: see `gnomon probe` (%s)", unknown);
         return EXIT_USAGE;
     }
     if (j.show && !one_of(j.show, shows)) {

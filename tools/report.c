@@ -47,7 +47,7 @@ static void add_lights(cJSON *root, const gn_plan *plan)
         const gn_plan_light *l = &plan->lights[i];
         cJSON *const o = cJSON_CreateObject();
 
-        cJSON_AddStringToObject(o, "method", gn_method_describe(l->method)->name);
+        cJSON_AddStringToObject(o, "method", gn_plan_method_name(plan, i));
         cJSON_AddNumberToObject(o, "scale", 1);
         cJSON_AddStringToObject(o, "reason", l->reason);
         cJSON_AddNumberToObject(o, "casters", l->casters);

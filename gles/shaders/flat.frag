@@ -1,5 +1,5 @@
 // flat.frag - one colour; while volumes are counted no colour is written.
-uniform lowp vec4 u_color;
+uniform mediump vec4 u_color;
 
 void main()
 {

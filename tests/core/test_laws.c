@@ -419,7 +419,7 @@ static void ended_volumes_shadow_what_is_seen(void **state)
         scene.lights = &light;
         scene.objects = &object;
         scene.light_count = scene.object_count = 1;
-        scene.target = (gn_target){64, 64, 8, 8, 8, 8, 24, 8, 0};
+        scene.target = (gn_target)TEST_TARGET(64, 64);
         memory = malloc(gn_plan_bound(&scene));
         assert_int_equal(gn_plan_make(context, &scene, memory, gn_plan_bound(&scene), &plan), GN_OK);
         assert_int_equal(plan->endless_casters, 0);

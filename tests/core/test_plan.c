@@ -1,6 +1,6 @@
 /* test_plan.c - plans: pure, within their bound, and what a frame's parts must be. */
-#include "gn_matrix.h"
 #include "frame.h"
+#include "gn_matrix.h"
 #include "gni.h"
 #include "port_template.h"
 
@@ -13,7 +13,7 @@ static gn_context *context;
 /* The frame of the walk's tests, with an infinite far plane; plans are made in memory of their own here. */
 static void make_fixture(test_frame *f)
 {
-    const gn_target target = {64, 48, 8, 8, 8, 8, 24, 8, 0};
+    const gn_target target = TEST_TARGET(64, 48);
 
     assert_int_equal(test_frame_make(f, context, NULL, target), GN_OK);
     f->scene.camera.zfar = 0.0;
@@ -277,10 +277,8 @@ static void bad_scenes_are_refused(void **state)
     REFUSED(GN_E_ARG, "object 0");
     f.objects[0].mesh = NULL;
     REFUSED(GN_E_ARG, "object 0 has no mesh");
-    f.scene.target.stencil_bits = 0;
-    REFUSED(GN_E_DEVICE, "stencil");
-    f.scene.target.depth_bits = 0;
-    REFUSED(GN_E_DEVICE, "depth");
+    f.scene.camera.finite_far = f.scene.camera.orthographic = 1;
+    REFUSED(GN_E_ARG, "finite far");
     f.scene.target.height = 0;
     REFUSED(GN_E_ARG, "64x0");
     f.scene.method = GN_METHOD_COUNT;

@@ -116,7 +116,8 @@ static void check_driver(const char *kind, const char *gallium)
     static const double distances[] = {1.3, 2, 10, 1000};
     static uint8_t lit[WIDTH * HEIGHT], visible[WIDTH * HEIGHT], classes[WIDTH * HEIGHT], rgba[4 * WIDTH * HEIGHT],
         facing[4 * WIDTH * HEIGHT];
-    const stage_options options = {kind, WIDTH, HEIGHT, 1.0, 24, 8};
+    const stage_options options = {kind, WIDTH, HEIGHT, 1.0, 24, 8, NULL, 0.0, NULL};
+    const stage_wish bare = {GN_METHOD_ZFAIL, 0, 0, 0, 1}, shadowed = {GN_METHOD_ZFAIL, 0, 1, 0, 1};
     const truth_options tracing = {WIDTH, HEIGHT, 24, {0, 0}};
     char message[SCENE_MESSAGE] = "";
     static model m;
@@ -139,10 +140,10 @@ static void check_driver(const char *kind, const char *gallium)
             for (int i = 0; i < 3; i++)
                 s->lights[0].position[i] = s->shading[0].position[i] = m.light.position[i];
             t = truth_create(&m.s, &tracing, message);
-            if (!t || !truth_light(t, 0, lit, visible, classes, message) ||
-                stage_plan(s, GN_METHOD_ZFAIL, 0, 1, 0, message) || !stage_draw_mask(s, 0, message) ||
-                !platform_read_back(s->platform, facing) || stage_plan(s, GN_METHOD_ZFAIL, 0, 1, 1, message) ||
-                !stage_draw_mask(s, 0, message) || !platform_read_back(s->platform, rgba)) {
+            if (!t || !truth_light(t, 0, lit, visible, classes, message) || stage_plan(s, &bare, message) ||
+                !stage_draw_mask(s, 0, message) || !platform_read_back(s->platform, facing) ||
+                stage_plan(s, &shadowed, message) || !stage_draw_mask(s, 0, message) ||
+                !platform_read_back(s->platform, rgba)) {
                 printf("%s: %s\n", kind, message);
                 _exit(255);
             }

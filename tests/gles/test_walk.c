@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const gn_target target = {64, 48, 8, 8, 8, 8, 24, 8, 0};
+static const gn_target target = TEST_TARGET(64, 48);
+static const gn_gles_desc fake = {fake_gl_get_proc, NULL, NULL};
 
 static gn_context *context;
 static gn_gles *gl;
@@ -15,7 +16,7 @@ static int set_up(void **state)
     (void)state;
     fake_gl_reset();
     fake_gl_live_names = 0;
-    return gn_context_create(NULL, &context) != GN_OK || gn_gles_create(context, fake_gl_get_proc, NULL, &gl) != GN_OK;
+    return gn_context_create(NULL, &context) != GN_OK || gn_gles_create(context, &fake, &gl) != GN_OK;
 }
 
 static int tear_down(void **state)
@@ -105,15 +106,15 @@ static void failures_are_said(void **state)
 
     (void)state;
     fake_gl_missing = "glStencilOpSeparate";
-    assert_int_equal(gn_gles_create(context, fake_gl_get_proc, NULL, &other), GN_E_DEVICE);
+    assert_int_equal(gn_gles_create(context, &fake, &other), GN_E_DEVICE);
     assert_null(other);
     assert_non_null(strstr(gn_message(context), "glStencilOpSeparate"));
     fake_gl_missing = NULL;
     fake_gl_refuses_shaders = 1;
-    assert_int_equal(gn_gles_create(context, fake_gl_get_proc, NULL, &other), GN_E_DEVICE);
+    assert_int_equal(gn_gles_create(context, &fake, &other), GN_E_DEVICE);
     assert_non_null(strstr(gn_message(context), "shader"));
     fake_gl_refuses_shaders = 0;
-    assert_int_equal(gn_gles_create(context, NULL, NULL, &other), GN_E_ARG);
+    assert_int_equal(gn_gles_create(context, &(gn_gles_desc){NULL, NULL, NULL}, &other), GN_E_ARG);
     assert_int_equal(test_frame_make(&f, context, gl, target), GN_OK);
     gn_gles_unload(gl, f.meshes[1]);
     assert_int_equal(gn_gles_begin(gl, f.plan), GN_E_ARG);
@@ -145,7 +146,7 @@ static void a_lost_context_is_forgotten(void **state)
     test_frame_drop(&f, gl);
     gn_gles_destroy(gl);
     assert_null(fake_gl_call(0));
-    assert_int_equal(gn_gles_create(context, fake_gl_get_proc, NULL, &gl), GN_OK);
+    assert_int_equal(gn_gles_create(context, &fake, &gl), GN_OK);
     assert_int_equal(test_frame_make(&f, context, gl, target), GN_OK);
     assert_int_equal(gn_gles_begin(gl, f.plan), GN_OK);
     test_frame_drop(&f, gl);
@@ -170,7 +171,7 @@ static void every_allocation_may_fail(void **state)
         counter.fail_at = ++fail_at;
         result = gn_context_create(&port, &failing);
         if (result == GN_OK)
-            result = gn_gles_create(failing, fake_gl_get_proc, NULL, &device);
+            result = gn_gles_create(failing, &fake, &device);
         if (result == GN_OK)
             result = test_frame_make(&f, failing, device, target);
         if (result == GN_OK) {

@@ -25,7 +25,7 @@ static void *counting_resize(void *user, void *block, size_t old_size, size_t ne
 
 gn_port test_port_make(test_port *counter)
 {
-    const gn_port port = {GN_PORT_VERSION, counter, counting_resize, NULL, NULL};
+    const gn_port port = {GN_PORT_VERSION, counter, counting_resize, NULL, NULL, NULL};
 
     return port;
 }

@@ -67,7 +67,7 @@ static size_t place_of(const job *j, int d, int m, size_t light)
 /* In a process of its own. */
 static int draw_masks(const job *j, scene *loaded, int d)
 {
-    const stage_options options = {drivers[d].platform, j->width, j->height, 0.0, 24, 8};
+    const stage_options options = {drivers[d].platform, j->width, j->height, 0.0, 24, 8, NULL, 0.0, NULL};
     char message[SCENE_MESSAGE] = "";
     uint8_t *rgba = malloc(4 * pixels_of(j));
     stage *s;
@@ -81,8 +81,8 @@ static int draw_masks(const job *j, scene *loaded, int d)
         for (int m = 0; !failed && m < METHODS; m++) {
             const size_t at = place_of(j, d, m, light);
 
-            failed = stage_plan(s, methods[m], light, 1, 1, message) != 0 || !stage_draw_mask(s, light, message) ||
-                     !platform_read_back(s->platform, rgba);
+            failed = stage_plan(s, &(stage_wish){methods[m], 0, 1, light, 1}, message) != 0 ||
+                     !stage_draw_mask(s, light, message) || !platform_read_back(s->platform, rgba);
             for (size_t i = 0; !failed && i < pixels_of(j); i++)
                 j->drawn[at + i] = (uint8_t)((rgba[4 * i] > 127) | (rgba[4 * i + 1] > 127) << 1);
             if (!failed) {

@@ -6,8 +6,9 @@
 
 #include <string.h>
 
-static gn_get_proc real_get_proc;
-static void *real_user;
+static gn_get_proc given_get_proc;
+static void *given_user;
+static gn_proc (*replace)(const char *name, gn_proc real);
 static gn_gl real;
 static gl_counts counts;
 
@@ -82,8 +83,10 @@ static void GL_APIENTRY counted_glTexImage2D(GLenum target, GLint level, GLint i
     F(glFrontFace, (GLenum a), (a), 0)                                                                                 \
     F(glPolygonOffset, (GLfloat a, GLfloat b), (a, b), 0)                                                              \
     F(glScissor, (GLint a, GLint b, GLsizei c, GLsizei d), (a, b, c, d), 0)                                            \
+    F(glStencilFunc, (GLenum a, GLint b, GLuint c), (a, b, c), 0)                                                      \
     F(glStencilFuncSeparate, (GLenum a, GLenum b, GLint c, GLuint d), (a, b, c, d), 0)                                 \
     F(glStencilMask, (GLuint a), (a), 0)                                                                               \
+    F(glStencilOp, (GLenum a, GLenum b, GLenum c), (a, b, c), 0)                                                       \
     F(glStencilOpSeparate, (GLenum a, GLenum b, GLenum c, GLenum d), (a, b, c, d), 0)                                  \
     F(glUseProgram, (GLuint a), (a), 0)                                                                                \
     F(glVertexAttribPointer, (GLuint a, GLint b, GLenum c, GLboolean d, GLsizei e, const void *f), (a, b, c, d, e, f), \
@@ -105,17 +108,26 @@ static void GL_APIENTRY counted_glTexImage2D(GLenum target, GLint level, GLint i
 UNIFORMS(WRAP_UNIFORM)
 STATES(WRAP_STATE)
 
-void counted_gl_wrap(gn_get_proc get_proc, void *user)
+static gn_proc real_get_proc(void *user, const char *name)
 {
-    real_get_proc = get_proc;
-    real_user = user;
+    const gn_proc found = given_get_proc(given_user, name);
+
+    (void)user;
+    return replace ? replace(name, found) : found;
+}
+
+void counted_gl_wrap(gn_get_proc get_proc, void *user, gn_proc (*replacement)(const char *name, gn_proc real))
+{
+    given_get_proc = get_proc;
+    given_user = user;
+    replace = replacement;
     memset(&counts, 0, sizeof counts);
-    gn_gl_load(&real, get_proc, user); /* what is missing is found out again by the library, which says so */
+    gn_gl_load(&real, real_get_proc, NULL); /* what is missing is found out again by the library, which says so */
 }
 
 gn_proc counted_get_proc(void *user, const char *name)
 {
-    const gn_proc found = real_get_proc(real_user, name);
+    const gn_proc found = real_get_proc(NULL, name);
 
     (void)user;
     if (!found)

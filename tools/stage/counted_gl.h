@@ -12,7 +12,8 @@ typedef struct gl_counts {
 } gl_counts;
 
 /* Counts what goes through the functions that counted_get_proc() finds; one GL at a time in a process. */
-void counted_gl_wrap(gn_get_proc get_proc, void *user);
+/* replace: a function to take instead of the real one, or the real one; or NULL. */
+void counted_gl_wrap(gn_get_proc get_proc, void *user, gn_proc (*replace)(const char *name, gn_proc real));
 gn_proc counted_get_proc(void *user, const char *name); /* user is not read */
 gl_counts counted_gl_read(void);
 #endif

@@ -56,7 +56,9 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
                                   options->depth_bits, options->stencil_bits};
     stage *s = calloc(1, sizeof *s);
     gn_port port = gn_port_libc();
+    gn_gles_desc desc = {counted_get_proc, NULL, options->hide};
     char why[PLATFORM_MESSAGE];
+    gn_result result;
     GLint vectors = 0;
 
     *out = NULL;
@@ -67,6 +69,7 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
     s->scene = given;
     for (int i = 0; i < 3; i++)
         s->centre[i] = 0.5 * (given->bounds_min[i] + given->bounds_max[i]);
+    s->finite_far = options->finite_far;
     s->exposure = options->exposure > 0.0 ? options->exposure : default_exposure(s);
     s->platform = platform_open(options->platform, &wanted, why);
     if (!s->platform) {
@@ -76,17 +79,19 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
     }
     port.user = &s->allocations;
     port.resize = counting_resize;
-    counted_gl_wrap(platform_get_proc, s->platform);
+    counted_gl_wrap(platform_get_proc, s->platform, options->replace);
     if (gn_context_create(&port, &s->context) != GN_OK) {
         snprintf(message, SCENE_MESSAGE, "stage: no memory");
         return refuse(out, s, 1);
     }
-    if (gn_gles_create(s->context, counted_get_proc, NULL, &s->gles) != GN_OK) {
+    result = gn_gles_create(s->context, &desc, &s->gles);
+    if (result == GN_OK)
+        result = gn_gles_describe_target(s->gles, options->width, options->height, NULL, &s->target);
+    if (result != GN_OK) {
         snprintf(message, SCENE_MESSAGE, "%s", gn_message(s->context));
-        return refuse(out, s, 3);
+        return refuse(out, s, result == GN_E_DEVICE ? 3 : 1);
     }
     s->gl = gn_gles_functions(s->gles);
-    s->target = gn_gles_describe_target(s->gles, options->width, options->height);
     /* ten vectors for the material, four for each light; 16 are guaranteed */
     s->gl->glGetIntegerv(GL_MAX_FRAGMENT_UNIFORM_VECTORS, &vectors);
     s->shader_lights = vectors < 10 + 2 * 4 ? 1 : vectors < 10 + STAGE_LIGHTS * 4 ? 2 : STAGE_LIGHTS;
@@ -173,6 +178,10 @@ static void place_camera(const stage *s, gn_camera *camera)
     camera->left = -camera->right;
     camera->znear = from->znear;
     camera->zfar = from->zfar;
+    if (s->finite_far > 0.0) {
+        camera->zfar = s->finite_far;
+        camera->finite_far = 1;
+    }
 }
 
 /* Closed, wound outward and single-sided, or double-sided throughout, and nothing cut: what could be seen is drawn. */
@@ -192,8 +201,7 @@ static unsigned flags_of(const stage *s, const scene_instance *instance, int cas
     return flags;
 }
 
-int stage_plan(stage *s, gn_method method, uint32_t first_light, uint32_t light_count, int casting,
-               char message[SCENE_MESSAGE])
+int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
 {
     gn_scene frame;
     gn_result result;
@@ -206,14 +214,15 @@ int stage_plan(stage *s, gn_method method, uint32_t first_light, uint32_t light_
 
         s->objects[i].mesh = s->meshes[instance->mesh].mesh;
         memcpy(s->objects[i].model, instance->world, sizeof s->objects[i].model);
-        s->objects[i].flags = flags_of(s, instance, casting);
+        s->objects[i].flags = flags_of(s, instance, wish->casting);
     }
-    frame.lights = s->lights + first_light;
-    frame.light_count = light_count;
+    frame.lights = s->lights + wish->first_light;
+    frame.light_count = wish->light_count;
     frame.objects = s->objects;
     frame.object_count = (uint32_t)s->scene->instance_count;
     frame.target = s->target;
-    frame.method = method;
+    frame.method = wish->method;
+    frame.one_sided = wish->one_sided;
     size = gn_plan_bound(&frame);
     if (size > s->plan_size) {
         free(s->plan_memory);

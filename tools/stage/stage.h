@@ -68,6 +68,7 @@ typedef struct stage {
     double centre[3]; /* of the scene at its start */
     double exposure;
     uint32_t shader_lights; /* lights in one shader here: as many as the GL has uniforms for */
+    double finite_far;      /* as in the options */
     int shader_refused;     /* a surface was left out because the GL refuses its shader */
     void *plan_memory;
     size_t plan_size;
@@ -79,6 +80,9 @@ typedef struct stage_options {
     uint32_t width, height;
     double exposure; /* 0: the brightest light gives 1 at the scene's centre */
     int depth_bits, stencil_bits;
+    const char *hide;  /* capabilities to pretend absent, or NULL */
+    double finite_far; /* the camera's own far plane, there and nowhere else; 0: as the scene says */
+    gn_proc (*replace)(const char *name, gn_proc real); /* tests: a function of GL to take instead; NULL: none */
 } stage_options;
 
 /* Opens a context and uploads the scene. Returns 0, or an exit status of the command (1 or 3) with a message; *out
@@ -90,10 +94,15 @@ void stage_close(stage *s);
  * centre. */
 void stage_pose(stage *s, double seconds, double spin_degrees);
 
-/* Plans the lights first .. first + count - 1. casting 0: the same passes, and no volumes. Returns 0, or an exit
- * status of the command (1 or 3) with a message. */
-int stage_plan(stage *s, gn_method method, uint32_t first_light, uint32_t light_count, int casting,
-               char message[SCENE_MESSAGE]);
+/* What to plan. casting 0: the same passes, and no volumes. */
+typedef struct stage_wish {
+    gn_method method;
+    int one_sided, casting;
+    uint32_t first_light, light_count;
+} stage_wish;
+
+/* Returns 0, or an exit status of the command (1 or 3) with a message. */
+int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE]);
 
 /* ---- Walking the plan: each draws one frame into the target ---- */
 

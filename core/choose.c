@@ -1,0 +1,101 @@
+/* choose.c - which method a frame gets, and which way of it the target can do: the first of a chain, from the best to
+ * what needs least. What could not be had, and why, becomes the sentence of the plan.
+ *
+ * A stencil method runs two-sided where that is proven, else in two culled passes a caster (Everitt 2002, section 3.3);
+ * wrapping where that is proven, else about the middle of the range. */
+#include "gni.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#define MIDDLE 128 /* of 8 bits */
+
+const char *gni_why_not(const gn_target *t, gn_capability c)
+{
+    const uint32_t bit = 1u << c;
+
+    return t->hidden & bit ? "is hidden" : t->advertised & bit ? "fails its proof" : "is not offered";
+}
+
+gn_far gni_far_ends(const gn_scene *s)
+{
+    if (s->camera.orthographic)
+        return GN_FAR_ENDED;
+    if (!s->camera.finite_far && gn_target_can(&s->target, GN_CAN_W0))
+        return GN_FAR_INFINITE;
+    return gn_target_can(&s->target, GN_CAN_DEPTH_CLAMP) ? GN_FAR_CLAMPED : GN_FAR_ENDED;
+}
+
+static void say(gni_choice *choice, const char *format, ...)
+#ifdef __GNUC__
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+
+static void say(gni_choice *choice, const char *format, ...)
+{
+    const size_t length = strlen(choice->reason);
+    va_list args;
+
+    va_start(args, format);
+    vsnprintf(choice->reason + length, sizeof choice->reason - length, format, args);
+    va_end(args);
+}
+
+static void choose_layout(const gn_scene *s, gni_choice *choice)
+{
+    const gn_target *t = &s->target;
+    gn_stencil_layout *layout = &choice->stencil;
+
+    layout->two_sided = !s->one_sided && gn_target_can(t, GN_CAN_TWO_SIDED_STENCIL);
+    if (s->one_sided)
+        say(choice, "; in culled passes, as asked for");
+    else if (!layout->two_sided)
+        say(choice, "; in culled passes, since %s %s", gn_capability_name(GN_CAN_TWO_SIDED_STENCIL),
+            gni_why_not(t, GN_CAN_TWO_SIDED_STENCIL));
+    layout->wrap = gn_target_can(t, GN_CAN_STENCIL_WRAP);
+    layout->reference = layout->wrap ? 0 : MIDDLE;
+    layout->low = layout->wrap ? 0 : -MIDDLE;
+    layout->high = layout->wrap ? 255 : 255 - MIDDLE;
+    if (!layout->wrap)
+        say(choice, "; counts from %d to %d about %d, since %s %s", layout->low, layout->high, layout->reference,
+            gn_capability_name(GN_CAN_STENCIL_WRAP), gni_why_not(t, GN_CAN_STENCIL_WRAP));
+}
+
+static void choose_far(const gn_scene *s, gni_choice *choice)
+{
+    const gn_target *t = &s->target;
+
+    choice->far_ends = gni_far_ends(s);
+    if (s->camera.orthographic || choice->far_ends == GN_FAR_INFINITE)
+        return;
+    say(choice, "; %s, since ", choice->far_ends == GN_FAR_CLAMPED ? "depth is clamped" : "volumes end on planes");
+    if (s->camera.finite_far)
+        say(choice, "the camera's far plane is finite");
+    else
+        say(choice, "%s %s", gn_capability_name(GN_CAN_W0), gni_why_not(t, GN_CAN_W0));
+    if (choice->far_ends == GN_FAR_ENDED)
+        say(choice, " and %s %s", gn_capability_name(GN_CAN_DEPTH_CLAMP), gni_why_not(t, GN_CAN_DEPTH_CLAMP));
+}
+
+gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
+{
+    const gn_target *t = &s->target;
+    const gn_method_info *info;
+
+    memset(choice, 0, sizeof *choice);
+    if ((unsigned)s->method >= GN_METHOD_COUNT)
+        return gn_fail(context, GN_E_ARG, "plan: no method has number %d", (int)s->method);
+    choice->method = s->method == GN_METHOD_AUTO ? GN_METHOD_ZFAIL : s->method;
+    say(choice, s->method == GN_METHOD_AUTO ? "exact for any view" : "asked for by name");
+    info = gn_method_describe(choice->method);
+    for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
+        if (info->needs >> c & 1 && !gn_target_can(t, (gn_capability)c))
+            return gn_fail(context, GN_E_DEVICE, "method %s needs %s, which %s (%d bits of stencil, %d of depth)",
+                           info->name, gn_capability_name((gn_capability)c), gni_why_not(t, (gn_capability)c),
+                           t->stencil_bits, t->depth_bits);
+    choose_layout(s, choice);
+    choose_far(s, choice);
+    return GN_OK;
+}

@@ -1,0 +1,148 @@
+/* proof_blending.c - alpha as a factor; adding and subtracting by single steps; MIN and MAX; doubling and halving.
+ *
+ * Counts without a stencil rest on these (Roettger 2002, and DESIGN.md, decision 11), each over every level that the
+ * target's red has: a ramp is drawn, blended, and read. */
+#include "proofs.h"
+
+#include "shaders/ramp.frag.h"
+
+static int top_level(const gni_proofs *p)
+{
+    return (1 << (p->target->red_bits < 8 ? p->target->red_bits : 8)) - 1;
+}
+
+/* The level that the ramp has at a pixel of the cell, and the one that is there now. */
+static int ramp_level(const gni_proofs *p, int x, int y)
+{
+    const int level = x + CELL * y, top = top_level(p);
+
+    return level < top ? level : top;
+}
+
+static int red_level(const gni_proofs *p, int x, int y)
+{
+    return (p->pixels[4 * (p->width * y + x)] * top_level(p) + 127) / 255;
+}
+
+static void draw_ramp(gni_proofs *p)
+{
+    const float origin[2] = {(float)p->x, (float)p->y}, levels[2] = {(float)top_level(p), 1.0f / (float)top_level(p)};
+
+    if (!gni_use_shader(p, "ramp", "", gni_shader_ramp_frag))
+        return;
+    p->gl->glUniform2fv(gni_uniform(p, "u_origin"), 1, origin);
+    p->gl->glUniform2fv(gni_uniform(p, "u_levels"), 1, levels);
+    gni_draw_rectangle(p, 0, 0, CELL, CELL, 0.0f, 0, gni_white);
+    gni_use_own_shader(p);
+}
+
+static void blend(gni_proofs *p, GLenum equation, GLenum source, GLenum destination, int level)
+{
+    const float value = (float)level / (float)top_level(p), color[4] = {value, value, value, value};
+
+    p->gl->glEnable(GL_BLEND);
+    p->gl->glBlendEquation(equation);
+    p->gl->glBlendFunc(source, destination);
+    gni_draw_rectangle(p, 0, 0, CELL, CELL, 0.0f, 0, color);
+    p->gl->glDisable(GL_BLEND);
+}
+
+static int levels_are(gni_proofs *p, int (*wanted)(int level, int top), const char *what)
+{
+    for (int y = 0; y < p->height; y++)
+        for (int x = 0; x < p->width; x++) {
+            const int level = ramp_level(p, x, y), right = wanted(level, top_level(p)), got = red_level(p, x, y);
+
+            if (got != right)
+                return gni_failed(p, "%s level %d gave %d, not %d", what, level, got, right);
+        }
+    return 1;
+}
+
+#define REVERSE_SUBTRACT 0x800B /* GL_FUNC_REVERSE_SUBTRACT */
+
+static void draw_steps(gni_proofs *p)
+{
+    draw_ramp(p);
+    blend(p, REVERSE_SUBTRACT, GL_ONE, GL_ONE, 1);
+    blend(p, GL_FUNC_ADD, GL_ONE, GL_ONE, 2);
+    blend(p, REVERSE_SUBTRACT, GL_ONE, GL_ONE, 2);
+}
+
+static int stepped(int level, int top) /* clamped at both ends */
+{
+    const int less = level > 0 ? level - 1 : 0, more = less + 2 < top ? less + 2 : top;
+
+    return more - 2;
+}
+
+static int steps(gni_proofs *p)
+{
+    return levels_are(p, stepped, "-1 +2 -2:");
+}
+
+#define BLEND_MIN 0x8007 /* GL_MIN_EXT */
+#define BLEND_MAX 0x8008 /* GL_MAX_EXT */
+
+static void draw_limits(gni_proofs *p)
+{
+    draw_ramp(p);
+    blend(p, BLEND_MAX, GL_ONE, GL_ONE, top_level(p) / 4);
+    blend(p, BLEND_MIN, GL_ONE, GL_ONE, top_level(p) / 2);
+}
+
+static int limited(int level, int top)
+{
+    return level < top / 4 ? top / 4 : level > top / 2 ? top / 2 : level;
+}
+
+static int limits(gni_proofs *p)
+{
+    return levels_are(p, limited, "the largest with 1/4, then the smallest with 1/2:");
+}
+
+/* Halving by 127/255 (15/31 ...), then doubling. */
+static void draw_halves(gni_proofs *p)
+{
+    draw_ramp(p);
+    blend(p, GL_FUNC_ADD, GL_ZERO, GL_SRC_COLOR, top_level(p) / 2);
+    blend(p, GL_FUNC_ADD, GL_DST_COLOR, GL_ONE, top_level(p));
+}
+
+static int halved(int level, int top)
+{
+    (void)top;
+    return level / 2 * 2;
+}
+
+static int halves(gni_proofs *p)
+{
+    return levels_are(p, halved, "halving, then doubling");
+}
+
+/* Left half alpha 0, right half alpha 1; then white times the alpha that is there, alpha left alone. */
+static void draw_alpha(gni_proofs *p)
+{
+    static const float clear[4] = {0, 0, 0, 0}, opaque[4] = {0, 0, 0, 1};
+
+    gni_draw_rectangle(p, 0, 0, 8, CELL, 0.0f, 0, clear);
+    gni_draw_rectangle(p, 8, 0, 8, CELL, 0.0f, 0, opaque);
+    p->gl->glEnable(GL_BLEND);
+    p->gl->glBlendFuncSeparate(GL_DST_ALPHA, GL_ONE, GL_ZERO, GL_ONE);
+    gni_draw_rectangle(p, 0, 0, CELL, CELL, 0.0f, 0, gni_white);
+}
+
+static int multiplies_by_alpha(gni_proofs *p)
+{
+    static const int dark[4] = {0, 0, 0, 0}, bright[4] = {255, 255, 255, 255};
+
+    return gni_is_color(p, 0, 0, 8, CELL, dark, "white times alpha 0 is not 0") &&
+           gni_is_color(p, 8, 0, 8, CELL, bright, "white times alpha 1 is not white");
+}
+
+const gni_cell_proof gni_proofs_of_blending[4] = {
+    {GN_CAN_ALPHA, 0, draw_alpha, multiplies_by_alpha},
+    {GN_CAN_BLEND_SUBTRACT, 0, draw_steps, steps},
+    {GN_CAN_BLEND_MINMAX, 0, draw_limits, limits},
+    {GN_CAN_BLEND_ROUNDING, 0, draw_halves, halves},
+};

@@ -1,0 +1,33 @@
+/* proof_clears.c - clears that reach a part of the target: under a scissor, under masks. Some tilers turn them into
+ * drawing, and some do them wrong. */
+#include "proofs.h"
+
+static void draw_clears(gni_proofs *p)
+{
+    const gn_gl *gl = p->gl;
+
+    gl->glEnable(GL_SCISSOR_TEST);
+    gl->glScissor(p->x, p->y, 8, CELL);
+    gl->glClearColor(1.0f, 1.0f, 0.0f, 1.0f);
+    gl->glClear(GL_COLOR_BUFFER_BIT);
+    gl->glScissor(p->x + 4, p->y, 8, CELL);
+    gl->glColorMask(GL_FALSE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl->glClearColor(1.0f, 0.0f, 1.0f, 1.0f);
+    gl->glClear(GL_COLOR_BUFFER_BIT);
+    gl->glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl->glScissor(0, 0, 1, 1);
+    gl->glDisable(GL_SCISSOR_TEST);
+}
+
+static int clears(gni_proofs *p)
+{
+    static const int yellow[4] = {255, 255, 0, -1}, magenta[4] = {255, 0, 255, -1}, of_blue[4] = {0, 0, 255, -1};
+    static const int black[4] = {0, 0, 0, -1};
+
+    return gni_is_color(p, 0, 0, 4, CELL, yellow, "a clear under a scissor misses") &&
+           gni_is_color(p, 4, 0, 4, CELL, magenta, "a clear under a mask is wrong") &&
+           gni_is_color(p, 8, 0, 4, CELL, of_blue, "a clear under scissor and mask is wrong") &&
+           gni_is_color(p, 12, 0, 4, CELL, black, "a clear passes its scissor");
+}
+
+const gni_cell_proof gni_proof_of_partial_clears[1] = {{GN_CAN_PARTIAL_CLEAR, 0, draw_clears, clears}};

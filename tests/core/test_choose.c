@@ -1,0 +1,202 @@
+/* test_choose.c - the chain: which way a frame is drawn when capabilities are missing, and what the plan says of it. */
+#include "frame.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "gn_matrix.h"
+
+static gn_context *context;
+static test_frame f;
+
+static int set_up(void **state)
+{
+    (void)state;
+    if (gn_context_create(NULL, &context) != GN_OK)
+        return 1;
+    return test_frame_make(&f, context, NULL, (gn_target)TEST_TARGET(64, 48)) != GN_OK;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    test_frame_drop(&f, NULL);
+    gn_context_destroy(context);
+    return 0;
+}
+
+static gn_result plan(void)
+{
+    const size_t size = gn_plan_bound(&f.scene);
+
+    if (size > f.size) {
+        free(f.memory);
+        f.memory = malloc(size);
+        f.size = size;
+    }
+    return gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan);
+}
+
+#define HIDE(capability) (f.scene.target.hidden |= 1u << (capability))
+
+static void says(const char *words)
+{
+    if (!strstr(f.plan->lights[0].reason, words))
+        fail_msg("\"%s\" does not say \"%s\"", f.plan->lights[0].reason, words);
+}
+
+static void names_are_read_and_written(void **state)
+{
+    int one_sided = 7;
+
+    (void)state;
+    for (int m = 0; m < GN_METHOD_COUNT; m++) {
+        assert_int_equal(gn_method_by_name(gn_method_describe((gn_method)m)->name, &one_sided), m);
+        assert_int_equal(one_sided, 0);
+    }
+    assert_int_equal(gn_method_by_name("zfail/one-sided", &one_sided), GN_METHOD_ZFAIL);
+    assert_int_equal(one_sided, 1);
+    assert_int_equal(gn_method_by_name("zpass/one-sided", &one_sided), GN_METHOD_ZPASS);
+    assert_int_equal(gn_method_by_name("auto/one-sided", &one_sided), GN_METHOD_COUNT);
+    assert_int_equal(gn_method_by_name("zfail/one-sided/one-sided", &one_sided), GN_METHOD_COUNT);
+    assert_int_equal(gn_method_by_name("zfail/", &one_sided), GN_METHOD_COUNT);
+    assert_int_equal(gn_method_by_name(NULL, &one_sided), GN_METHOD_COUNT);
+}
+
+static void lists_of_capabilities_are_parsed(void **state)
+{
+    uint32_t set = 0;
+
+    (void)state;
+    for (int c = 0; c < GN_CAPABILITY_COUNT; c++) {
+        set = 0;
+        assert_null(gn_capability_parse(gn_capability_name((gn_capability)c), &set));
+        assert_int_equal(set, 1u << c);
+    }
+    set = 0;
+    assert_null(gn_capability_parse("stencil-wrap,w0", &set));
+    assert_int_equal(set, 1u << GN_CAN_STENCIL_WRAP | 1u << GN_CAN_W0);
+    assert_null(gn_capability_parse("", &set));
+    assert_null(gn_capability_parse(NULL, &set));
+    assert_string_equal(gn_capability_parse("w0,stencils,alpha", &set), "stencils,alpha");
+    assert_string_equal(gn_capability_parse("w0,", &set), ",");
+    assert_string_equal(gn_capability_parse(",w0", &set), ",w0");
+    assert_string_equal(gn_capability_parse("stenci", &set), "stenci");
+    assert_int_equal(set, 1u << GN_CAN_STENCIL_WRAP | 1u << GN_CAN_W0);
+    assert_string_equal(gn_capability_name(GN_CAPABILITY_COUNT), "");
+}
+
+static void the_chain_goes_down_step_by_step(void **state)
+{
+    (void)state;
+    assert_int_equal(plan(), GN_OK);
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "zfail");
+    assert_true(f.plan->stencil.two_sided && f.plan->stencil.wrap && f.plan->stencil.reference == 0);
+    assert_int_equal(f.plan->far_ends, GN_FAR_INFINITE);
+
+    HIDE(GN_CAN_TWO_SIDED_STENCIL);
+    assert_int_equal(plan(), GN_OK);
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "zfail/one-sided");
+    assert_true(!f.plan->stencil.two_sided && f.plan->stencil.wrap);
+    says("culled passes, since two-sided-stencil is hidden");
+
+    f.scene.target.proven &= ~(1u << GN_CAN_STENCIL_WRAP);
+    assert_int_equal(plan(), GN_OK);
+    assert_true(!f.plan->stencil.wrap && f.plan->stencil.reference == 128);
+    assert_int_equal(f.plan->stencil.low, -128);
+    assert_int_equal(f.plan->stencil.high, 127);
+    says("since stencil-wrap fails its proof");
+
+    f.scene.target.advertised &= ~(1u << GN_CAN_STENCIL);
+    f.scene.target.proven &= ~(1u << GN_CAN_STENCIL);
+    assert_int_equal(plan(), GN_E_DEVICE);
+    assert_non_null(strstr(gn_message(context), "stencil, which is not offered"));
+}
+
+static void one_sided_may_be_asked_for(void **state)
+{
+    (void)state;
+    f.scene.method = GN_METHOD_ZPASS;
+    f.scene.one_sided = 1;
+    assert_int_equal(plan(), GN_OK);
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "zpass/one-sided");
+    says("in culled passes, as asked for");
+    f.scene.one_sided = 0;
+    f.scene.method = GN_METHOD_AUTO;
+}
+
+/* Every far vertex, through the float matrix of its record, lies in front of the far plane. */
+static void far_vertices_are_inside(void)
+{
+    assert_true(f.plan->record_count > 0);
+    for (uint32_t r = 0; r < f.plan->record_count; r++) {
+        const gn_record *record = &f.plan->records[r];
+        const gn_mesh_info *info = gn_mesh_get_info(f.plan->objects[record->object].mesh);
+        const gn_chunk *chunk = &info->chunks[record->chunk];
+
+        for (uint32_t i = 0; i < record->side_count + record->dark_cap_count; i++) {
+            const uint16_t index = f.plan->indices[record->first_index + i];
+            const float *m = record->far_matrix;
+            const float *v = info->positions + 3 * (size_t)info->chunk_vertices[chunk->first_vertex + index / 2];
+            const float z = m[2] * v[0] + m[6] * v[1] + m[10] * v[2] + m[14];
+            const float w = m[3] * v[0] + m[7] * v[1] + m[11] * v[2] + m[15];
+
+            if (index % 2)
+                assert_true(z < w);
+        }
+    }
+}
+
+static void far_ends_go_down_too(void **state)
+{
+    (void)state;
+    HIDE(GN_CAN_W0);
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->far_ends, GN_FAR_CLAMPED);
+    says("depth is clamped, since w0 is hidden");
+    HIDE(GN_CAN_DEPTH_CLAMP);
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->far_ends, GN_FAR_ENDED);
+    says("volumes end on planes, since w0 is hidden and depth-clamp is hidden");
+    far_vertices_are_inside();
+}
+
+/* A host's own far plane: clamped; without clamping ended before it; or refused, when the light is beside its caster. */
+static void a_finite_far_plane_is_kept_or_refused(void **state)
+{
+    (void)state;
+    f.scene.camera.finite_far = 1;
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->far_ends, GN_FAR_CLAMPED);
+    says("depth is clamped, since the camera's far plane is finite");
+    assert_true(f.plan->depth_range[1] == 40 && f.plan->clear_depth == 1.0);
+    HIDE(GN_CAN_DEPTH_CLAMP);
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->far_ends, GN_FAR_ENDED);
+    far_vertices_are_inside();
+
+    f.lights[0].position[0] = 1.001; /* beside the box: its shadow runs to the horizon */
+    f.lights[0].position[1] = 1.999;
+    f.lights[0].position[2] = 0;
+    assert_int_equal(plan(), GN_E_DEVICE);
+    assert_non_null(strstr(gn_message(context), "light 0 is too near to object 0"));
+    assert_non_null(strstr(gn_message(context), "far plane at 40"));
+    f.scene.target.hidden = 0;
+    assert_int_equal(plan(), GN_OK);
+    f.scene.camera.zfar = 0;
+    assert_int_equal(plan(), GN_E_ARG);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(lists_of_capabilities_are_parsed),
+        cmocka_unit_test(names_are_read_and_written),
+        cmocka_unit_test_setup_teardown(the_chain_goes_down_step_by_step, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(one_sided_may_be_asked_for, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(far_ends_go_down_too, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(a_finite_far_plane_is_kept_or_refused, set_up, tear_down),
+    };
+
+    return cmocka_run_group_tests_name("choose", tests, NULL, NULL);
+}
