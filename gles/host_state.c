@@ -3,15 +3,9 @@
  * Of attribute arrays and textures only what proofs touch is kept: array 0, and what is bound to unit 0. */
 #include "gni_gles.h"
 
-static const GLenum switches[] = {GL_BLEND,
-                                  GL_CULL_FACE,
-                                  GL_DEPTH_TEST,
-                                  GL_DITHER,
-                                  GL_POLYGON_OFFSET_FILL,
-                                  GL_SAMPLE_ALPHA_TO_COVERAGE,
-                                  GL_SAMPLE_COVERAGE,
-                                  GL_SCISSOR_TEST,
-                                  GL_STENCIL_TEST};
+static const GLenum switches[] = {GL_BLEND,           GL_CULL_FACE,           GL_DEPTH_TEST,
+                                  GL_DITHER,          GL_POLYGON_OFFSET_FILL, GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                  GL_SAMPLE_COVERAGE, GL_SCISSOR_TEST,        GL_STENCIL_TEST};
 enum { SWITCHES = sizeof switches / sizeof switches[0] };
 
 /* Function, reference, value mask; operations; write mask. */

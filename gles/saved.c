@@ -19,10 +19,10 @@ static const char *text_of(const gn_gles *g, GLenum name)
 /* What the text is true of. 0 when the driver's strings are too long. */
 static int head_of(const gn_gles *g, const gn_target *t, char head[HEAD])
 {
-    const int length = snprintf(head, HEAD, "gnomon %s\n%s\n%s\n%s\nbits %d %d %d %d depth %d stencil %d samples %d\n",
-                                gn_version(), text_of(g, GL_VENDOR), text_of(g, GL_RENDERER), text_of(g, GL_VERSION),
-                                t->red_bits, t->green_bits, t->blue_bits, t->alpha_bits, t->depth_bits, t->stencil_bits,
-                                t->samples);
+    const int length =
+        snprintf(head, HEAD, "gnomon %s\n%s\n%s\n%s\nbits %d %d %d %d depth %d stencil %d samples %d\n", gn_version(),
+                 text_of(g, GL_VENDOR), text_of(g, GL_RENDERER), text_of(g, GL_VERSION), t->red_bits, t->green_bits,
+                 t->blue_bits, t->alpha_bits, t->depth_bits, t->stencil_bits, t->samples);
 
     return length > 0 && length < HEAD;
 }

@@ -119,22 +119,16 @@ void gni_reset_state(gn_gles *g)
 
 void gni_leave_state(gn_gles *g)
 {
-    static const gni_state fresh = {.color_write = GL_TRUE,
-                                    .depth_write = GL_TRUE,
-                                    .stencil_write = ~0u,
-                                    .depth_func = GL_LESS,
-                                    .stencil_func = GL_ALWAYS,
-                                    .blend_source = GL_ONE,
-                                    .blend_destination = GL_ZERO,
-                                    .cull = GL_BACK};
+    static const gni_state off = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .stencil_write = ~0u};
     const gn_gl *gl = &g->gl;
 
     gni_reset_state(g);
-    gni_set_state(g, &fresh);
-    gl->glDisable(GL_DEPTH_TEST);
-    gl->glDisable(GL_STENCIL_TEST);
-    gl->glDisable(GL_BLEND);
-    gl->glDisable(GL_CULL_FACE);
+    gni_set_state(g, &off);
+    gl->glDepthFunc(GL_LESS);
+    gl->glStencilFunc(GL_ALWAYS, 0, ~0u);
+    gl->glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+    gl->glBlendFunc(GL_ONE, GL_ZERO);
+    gl->glCullFace(GL_BACK);
     gl->glPolygonOffset(0.0f, 0.0f);
     gl->glClearDepthf(1.0f);
     gl->glClearStencil(0);

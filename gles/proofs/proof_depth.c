@@ -54,7 +54,8 @@ static int clamps(gni_proofs *p)
 static void tilt(float near_matrix[16], float far_matrix[16], int view)
 {
     const double a = 0.7 + 0.9 * view, s = 0.37 * cos(a), t = 0.37 * sin(a), n = 0.0131 * (view + 1), k = n * 7.3;
-    double projection[16], direction[16] = {3.1, 0.13, s, 0, -0.17, 3.3, t, 0, 0.11, -0.07, -0.43, 0, 0.05, 0.09, -0.57};
+    double projection[16],
+        direction[16] = {3.1, 0.13, s, 0, -0.17, 3.3, t, 0, 0.11, -0.07, -0.43, 0, 0.05, 0.09, -0.57};
     double m[16];
 
     gn_mat4_identity(projection);
@@ -88,8 +89,9 @@ static void draw_infinity(gni_proofs *p)
         tilt(near_matrix, far_matrix, view);
         gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, near_matrix);
         gl->glUniformMatrix4fv(g->far_matrix, 1, GL_FALSE, far_matrix);
-        gl->glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float),
-                                  (const void *)((view < 4 ? (size_t)GNI_FAR_QUAD : (size_t)GNI_WALL) * 4 * sizeof(float)));
+        gl->glVertexAttribPointer(
+            0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float),
+            (const void *)((view < 4 ? (size_t)GNI_FAR_QUAD : (size_t)GNI_WALL) * 4 * sizeof(float)));
         gl->glViewport(p->x + view % 4 * 4, p->y + view / 4 * 8, 4, 8);
         gl->glDrawArrays(GL_TRIANGLES, 0, 6);
     }

@@ -55,7 +55,7 @@ static int discards(gni_proofs *p)
     return gni_is_color(p, 0, 0, CELL, CELL, is_red, "colour is lost with depth and stencil");
 }
 
-const gni_object_proof gni_proofs_of_extensions[2] = {
-    {GN_CAN_TIMER_QUERY, 0, times},
-    {GN_CAN_DISCARD, 0, discards},
+const gni_lone_proof gni_proofs_of_extensions[2] = {
+    {GN_CAN_TIMER_QUERY, 0, 0, times},
+    {GN_CAN_DISCARD, 0, 0, discards},
 };

@@ -220,12 +220,12 @@ static int samples_depth(gni_proofs *p)
     return ok;
 }
 
-const gni_object_proof gni_proofs_of_framebuffers[7] = {
-    {GN_CAN_FBO_RGBA8, 0, holds_rgba8},
-    {GN_CAN_FBO_RGBA4, 0, holds_rgba4},
-    {GN_CAN_FBO_RGB5A1, 0, holds_rgb5a1},
-    {GN_CAN_FBO_RGB565, 0, holds_rgb565},
-    {GN_CAN_PACKED_DEPTH_STENCIL, 1u << GN_CAN_FBO_RGBA8, holds_both},
-    {GN_CAN_SHARED_DEPTH, 1u << GN_CAN_FBO_RGBA8, shares_depth},
-    {GN_CAN_DEPTH_TEXTURE, 1u << GN_CAN_FBO_RGBA8, samples_depth},
+const gni_lone_proof gni_proofs_of_framebuffers[7] = {
+    {GN_CAN_FBO_RGBA8, 0, 0, holds_rgba8},
+    {GN_CAN_FBO_RGBA4, 0, 0, holds_rgba4},
+    {GN_CAN_FBO_RGB5A1, 0, 0, holds_rgb5a1},
+    {GN_CAN_FBO_RGB565, 0, 0, holds_rgb565},
+    {GN_CAN_PACKED_DEPTH_STENCIL, 1u << GN_CAN_FBO_RGBA8, 1u << GN_CAN_DEPTH | 1u << GN_CAN_STENCIL, holds_both},
+    {GN_CAN_SHARED_DEPTH, 1u << GN_CAN_FBO_RGBA8, 1u << GN_CAN_DEPTH, shares_depth},
+    {GN_CAN_DEPTH_TEXTURE, 1u << GN_CAN_FBO_RGBA8, 1u << GN_CAN_DEPTH, samples_depth},
 };

@@ -1,5 +1,5 @@
-/* proofs.c - runs the proofs: those in cells of the target, as many at a time as it holds, then those with framebuffer
- * objects of their own. What fails is told to the port's log, with the driver's name and the symptom. */
+/* proofs.c - runs the proofs: those in cells of the target, as many at a time as it holds, then those alone, most of
+ * them with framebuffer objects of their own. What fails is told to the port's log, with the driver's name and the symptom. */
 #include "proofs.h"
 
 #include <stdarg.h>
@@ -8,7 +8,8 @@
 
 #include "shaders/volume.vert.h"
 
-const float gni_red[4] = {1, 0, 0, 1}, gni_green[4] = {0, 1, 0, 1}, gni_blue[4] = {0, 0, 1, 1}, gni_white[4] = {1, 1, 1, 1};
+const float gni_red[4] = {1, 0, 0, 1}, gni_green[4] = {0, 1, 0, 1}, gni_blue[4] = {0, 0, 1, 1},
+            gni_white[4] = {1, 1, 1, 1};
 
 int gni_proofs_can(const gni_proofs *p, gn_capability c)
 {
@@ -95,6 +96,32 @@ static void take_errors(const gn_gl *gl)
         continue;
 }
 
+static const char *name_of_first(uint32_t set)
+{
+    int c = 0;
+
+    while (c < GN_CAPABILITY_COUNT && !(set >> c & 1))
+        c++;
+    return gn_capability_name((gn_capability)c);
+}
+
+/* Whether a proof may be drawn. What is offered and not tried is for want of another capability. */
+static int is_possible(gni_proofs *p, gn_capability c, uint32_t uses, uint32_t touches)
+{
+    const uint32_t missing = (uses & ~p->offered) | (touches & p->target->hidden);
+
+    if (c == GN_CAPABILITY_COUNT)
+        return 1; /* a measurement: it has no symptom */
+    if (!gni_proofs_can(p, c))
+        return 0;
+    p->symptom = p->g->symptoms[c];
+    if (missing) {
+        gni_failed(p, "it needs %s", name_of_first(missing));
+        p->untried |= 1u << c;
+    }
+    return !missing;
+}
+
 /* What came out of one proof. */
 static void settle(gni_proofs *p, gn_capability c, uint32_t uses, int holds)
 {
@@ -102,33 +129,22 @@ static void settle(gni_proofs *p, gn_capability c, uint32_t uses, int holds)
 
     if (c == GN_CAPABILITY_COUNT)
         return;
-    for (int need = 0; need < GN_CAPABILITY_COUNT; need++)
-        if (missing >> need & 1) {
-            gni_failed(p, "it needs %s", gn_capability_name((gn_capability)need));
-            return;
-        }
-    if (holds)
+    if (missing) {
+        gni_failed(p, "it needs %s", name_of_first(missing));
+        p->untried |= 1u << c;
+    } else if (holds) {
         p->target->proven |= 1u << c;
+    }
 }
 
-static int is_possible(const gni_proofs *p, gn_capability c, uint32_t uses)
-{
-    return (c == GN_CAPABILITY_COUNT || gni_proofs_can(p, c)) && !(uses & ~p->offered);
-}
-
-/* A list of proofs in cells, cut into batches: drawn, then read. */
-enum { MOST = 16 };
-
-static const gni_cell_proof *const cell_proofs[MOST] = {
-    &gni_proofs_of_stencil[0],  &gni_proofs_of_stencil[1],       &gni_proofs_of_stencil[2],  &gni_proofs_of_depth[0],
-    &gni_proofs_of_depth[1],    &gni_proofs_of_depth[2],         &gni_proofs_of_blending[0], &gni_proofs_of_blending[1],
-    &gni_proofs_of_blending[2], &gni_proofs_of_blending[3],      &gni_proofs_of_shaders[0],  &gni_proofs_of_shaders[1],
-    &gni_proofs_of_shaders[2],  &gni_proof_of_partial_clears[0], &gni_measurement_of_mediump};
-
-static char *symptom_of(gni_proofs *p, gn_capability c, char spare[GNI_SYMPTOM])
-{
-    return c == GN_CAPABILITY_COUNT ? spare : p->g->symptoms[c];
-}
+static const gni_cell_proof *const cell_proofs[] = {
+    &gni_proofs_of_depth[0], /* others ask whether it holds */
+    &gni_proofs_of_depth[1],     &gni_proofs_of_depth[2],    &gni_proofs_of_stencil[0],  &gni_proofs_of_stencil[1],
+    &gni_proofs_of_stencil[2],   &gni_proofs_of_blending[0], &gni_proofs_of_blending[1], &gni_proofs_of_blending[2],
+    &gni_proofs_of_blending[3],  &gni_proofs_of_shaders[0],  &gni_proofs_of_shaders[1],  &gni_proofs_of_shaders[2],
+    &gni_measurement_of_mediump,
+};
+enum { CELLS = sizeof cell_proofs / sizeof cell_proofs[0] };
 
 static void clear_target(gni_proofs *p)
 {
@@ -155,28 +171,25 @@ static void prove_in_cells(gni_proofs *p)
 {
     const gn_target *t = p->target;
     const uint32_t held = (t->width / CELL ? t->width / CELL : 1) * (t->height / CELL ? t->height / CELL : 1);
-    const int batch = held < MOST ? (int)held : MOST;
-    char spare[GNI_SYMPTOM];
+    const int batch = held < CELLS ? (int)held : CELLS;
 
-    for (int first = 0; first < MOST; first += batch) {
+    for (int first = 0; first < CELLS; first += batch) {
         clear_target(p);
-        for (int i = first; i < first + batch && i < MOST; i++) {
+        for (int i = first; i < first + batch && i < CELLS; i++) {
             const gni_cell_proof *proof = cell_proofs[i];
 
-            if (!proof || !is_possible(p, proof->capability, proof->uses))
+            if (!is_possible(p, proof->capability, proof->uses, 0))
                 continue;
-            p->symptom = symptom_of(p, proof->capability, spare);
             place_cell(p, (uint32_t)(i - first));
             gni_fresh_state(p);
             proof->draw(p);
             take_errors(p->gl);
         }
-        for (int i = first; i < first + batch && i < MOST; i++) {
+        for (int i = first; i < first + batch && i < CELLS; i++) {
             const gni_cell_proof *proof = cell_proofs[i];
 
-            if (!proof || !is_possible(p, proof->capability, proof->uses))
+            if (!is_possible(p, proof->capability, proof->uses, 0))
                 continue;
-            p->symptom = symptom_of(p, proof->capability, spare);
             place_cell(p, (uint32_t)(i - first));
             p->gl->glReadPixels(p->x, p->y, p->width, p->height, GL_RGBA, GL_UNSIGNED_BYTE, p->pixels);
             settle(p, proof->capability, proof->uses, proof->holds(p));
@@ -184,12 +197,11 @@ static void prove_in_cells(gni_proofs *p)
     }
 }
 
-static void prove_with_objects(gni_proofs *p, const gni_object_proof *list, int count, GLuint framebuffer)
+static void prove_alone(gni_proofs *p, const gni_lone_proof *list, int count, GLuint framebuffer)
 {
     for (int i = 0; i < count; i++) {
-        if (!is_possible(p, list[i].capability, list[i].uses))
+        if (!is_possible(p, list[i].capability, list[i].uses, list[i].touches))
             continue;
-        p->symptom = p->g->symptoms[list[i].capability];
         gni_fresh_state(p);
         settle(p, list[i].capability, list[i].uses, list[i].holds(p));
         take_errors(p->gl);
@@ -242,8 +254,8 @@ static int can_be_read(gni_proofs *p)
 
 static void refuse_cells(gni_proofs *p)
 {
-    for (int i = 0; i < MOST; i++)
-        if (cell_proofs[i] && cell_proofs[i]->capability != GN_CAPABILITY_COUNT) {
+    for (int i = 0; i < CELLS; i++)
+        if (cell_proofs[i]->capability != GN_CAPABILITY_COUNT) {
             p->symptom = p->g->symptoms[cell_proofs[i]->capability];
             gni_failed(p, "the framebuffer cannot be read, and nothing stands in for it");
         }
@@ -256,7 +268,7 @@ static void warn(const gni_proofs *p)
     char line[320];
 
     for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
-        if ((p->offered & ~p->target->proven) >> c & 1 && port->log) {
+        if ((p->offered & ~p->target->proven & ~p->untried) >> c & 1 && port->log) {
             snprintf(line, sizeof line, "%.128s advertises %s, but %s", renderer ? renderer : "the GL",
                      gn_capability_name((gn_capability)c), p->g->symptoms[c]);
             port->log(port->user, GN_LOG_WARNING, line);
@@ -267,6 +279,7 @@ void gni_prove(gn_gles *g, gn_target *target)
 {
     gn_target seen = *target; /* what cells are drawn into */
     stand_in replacement = {0, 0, 0};
+    GLuint drawn_into;
     GLint bound = 0;
     gni_proofs p;
     int ok = 1;
@@ -289,14 +302,15 @@ void gni_prove(gn_gles *g, gn_target *target)
     if (ok) {
         prove_in_cells(&p);
         place_cell(&p, 0);
-        prove_with_objects(&p, gni_proofs_of_extensions, 2,
-                           replacement.framebuffer ? replacement.framebuffer : (GLuint)bound);
+        drawn_into = replacement.framebuffer ? replacement.framebuffer : (GLuint)bound;
+        prove_alone(&p, gni_proofs_of_extensions, 2, drawn_into);
+        prove_alone(&p, gni_proof_of_partial_clears, 1, drawn_into);
     } else {
         refuse_cells(&p);
     }
     p.x = p.y = 0;
     p.width = p.height = CELL;
-    prove_with_objects(&p, gni_proofs_of_framebuffers, 7, (GLuint)bound);
+    prove_alone(&p, gni_proofs_of_framebuffers, 7, (GLuint)bound);
     if (replacement.framebuffer)
         drop_stand_in(&p, &replacement);
     target->proven = seen.proven;

@@ -14,11 +14,12 @@ typedef struct gni_proofs {
     const gn_gl *gl;
     gn_target *target; /* proven and mediump_bits grow */
     uint32_t offered;  /* advertised and not hidden */
+    uint32_t untried;  /* offered, and failed for want of another */
     /* The cell at hand: where it is, how much of it the target holds, and, once read, its pixels. */
     GLint x, y;
     int width, height;
     uint8_t pixels[CELL * CELL * 4]; /* [height][width][4] */
-    char *symptom;         /* [GNI_SYMPTOM] of the proof at hand */
+    char *symptom;                   /* [GNI_SYMPTOM] of the proof at hand */
     /* What rectangles are drawn with: the program of volumes, or one of the proof's own. */
     GLuint program;
     GLint near_matrix, color;
@@ -27,28 +28,31 @@ typedef struct gni_proofs {
 /* A proof in a cell. Both functions start from the state of a new context, with dither off. */
 typedef struct gni_cell_proof {
     gn_capability capability;
-    uint32_t uses;            /* capabilities that must be offered too, and proven */
-    void (*draw)(gni_proofs *p);  /* the cell is 0 in colour and stencil, 1 in depth */
-    int (*holds)(gni_proofs *p);  /* 1, or 0 having said why */
+    uint32_t uses;               /* capabilities that must be offered too, and proven */
+    void (*draw)(gni_proofs *p); /* the cell is 0 in colour and stencil, 1 in depth */
+    int (*holds)(gni_proofs *p); /* 1, or 0 having said why */
 } gni_cell_proof;
 
-extern const gni_cell_proof gni_proofs_of_stencil[3], gni_proofs_of_depth[3], gni_proofs_of_blending[4], gni_proofs_of_shaders[3],
-    gni_proof_of_partial_clears[1];
+extern const gni_cell_proof gni_proofs_of_stencil[3], gni_proofs_of_depth[3], gni_proofs_of_blending[4];
+extern const gni_cell_proof gni_proofs_of_shaders[3];
 extern const gni_cell_proof gni_measurement_of_mediump; /* of no capability */
 
-/* Those that bind framebuffers of their own: 1, or 0 having said why. */
-typedef struct gni_object_proof {
+/* Those that no other may stand beside: 1, or 0 having said why. They start from the same state, the cell at hand being
+ * the first, and may leave another framebuffer bound. */
+typedef struct gni_lone_proof {
     gn_capability capability;
     uint32_t uses;
+    uint32_t touches; /* capabilities of framebuffers of its own: whatever the target has, they must not be hidden */
     int (*holds)(gni_proofs *p);
-} gni_object_proof;
+} gni_lone_proof;
 
-extern const gni_object_proof gni_proofs_of_framebuffers[7], gni_proofs_of_extensions[2];
+extern const gni_lone_proof gni_proofs_of_framebuffers[7], gni_proofs_of_extensions[2], gni_proof_of_partial_clears[1];
 
 int gni_proofs_can(const gni_proofs *p, gn_capability c); /* offered */
 
 /* A rectangle of the cell in one colour, at a depth of clip space: -1 nearest, 1 farthest. `back`: its back is seen. */
-void gni_draw_rectangle(gni_proofs *p, int x, int y, int width, int height, float depth, int back, const float color[4]);
+void gni_draw_rectangle(gni_proofs *p, int x, int y, int width, int height, float depth, int back,
+                        const float color[4]);
 
 /* Rectangles are drawn with another fragment shader from here on: 1, or 0 when the GL refuses it. Its uniforms other than
  * u_color are the caller's to set. */

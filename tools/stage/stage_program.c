@@ -97,10 +97,12 @@ stage_program *stage_use(stage *s, unsigned kind)
     stage_program *p = &s->programs[kind];
 
     if (!p->name) {
-        char defines[128];
+        char defines[192];
 
-        snprintf(defines, sizeof defines, "#define LIGHTS %u\n#define TEXTURED %d\n#define CUT %d\n#define FLAT %d\n",
-                 kind >> STAGE_LIGHT_SHIFT, !!(kind & STAGE_TEXTURED), !!(kind & STAGE_CUT), !!(kind & STAGE_FLAT));
+        snprintf(defines, sizeof defines,
+                 "#define LIGHTS %u\n#define TEXTURED %d\n#define CUT %d\n#define FLAT %d\n#define FROM_BEHIND %s\n",
+                 kind >> STAGE_LIGHT_SHIFT, !!(kind & STAGE_TEXTURED), !!(kind & STAGE_CUT), !!(kind & STAGE_FLAT),
+                 gn_target_can(&s->target, GN_CAN_FRONT_FACING) ? "!gl_FrontFacing" : "(dot(n, v) < 0.0)");
         p->name = link(s->gl, defines, gni_shader_surface_vert, gni_shader_surface_frag);
         if (!p->name)
             return NULL;

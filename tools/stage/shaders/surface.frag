@@ -1,9 +1,10 @@
 // surface.frag - linear light: ambient, Lambert, a Blinn-Phong highlight; or one flat colour.
 //
-// LIGHTS     how many lights are added at once (0: none)
-// TEXTURED   the base colour has a texture
-// CUT        alphaMode MASK: cut below u_cutoff in every pass
-// FLAT       one colour instead of shading
+// LIGHTS       how many lights are added at once (0: none)
+// TEXTURED     the base colour has a texture
+// CUT          alphaMode MASK: cut below u_cutoff in every pass
+// FLAT         one colour instead of shading
+// FROM_BEHIND  the back of the face is seen
 //
 // Falloff and cones are those of KHR_lights_punctual.
 #ifdef GL_FRAGMENT_PRECISION_HIGH
@@ -53,7 +54,7 @@ void main()
 #if LIGHTS
     vec3 n = normalize(v_normal);
     vec3 v = normalize(-v_position);
-    if (u_two_sided > 0.5 && !gl_FrontFacing)
+    if (u_two_sided > 0.5 && FROM_BEHIND)
         n = -n;
     for (int i = 0; i < LIGHTS; i++) {
         vec3 to_light = u_light_position[i].xyz - v_position * u_light_position[i].w;
