@@ -85,6 +85,8 @@ uint32_t gni_advertised(const gn_gles *g, const gn_target *t)
         set |= 1u << GN_CAN_DEPTH;
     if (t->alpha_bits > 0)
         set |= 1u << GN_CAN_ALPHA;
+    if (t->samples > 0) /* a mask has one sample a pixel, and shares no depth with many */
+        set &= ~(1u << GN_CAN_SHARED_DEPTH);
     gl->glGetShaderPrecisionFormat(GL_FRAGMENT_SHADER, GL_HIGH_FLOAT, range, &precision);
     if (precision >= 16)
         set |= 1u << GN_CAN_FRAGMENT_HIGHP;

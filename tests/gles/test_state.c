@@ -233,6 +233,65 @@ static void the_promised_state_holds(void **state)
     test_frame_drop(&f, gles);
 }
 
+/* Proofs draw, bind, enable: the host sees none of it. Everything is away from its default, and bound. */
+static void proofs_leave_no_trace(void **state)
+{
+    static const float vertices[8] = {0};
+    snapshot before, after;
+    GLuint buffers[2], texture, renderbuffer;
+    GLint array[2][6];
+    void *pointer[2];
+
+    (void)state;
+    disturb();
+    gl->glDepthRangef(0.25f, 0.75f);
+    gl->glEnable(GL_SAMPLE_COVERAGE);
+    gl->glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+    gl->glGenBuffers(2, buffers);
+    gl->glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    gl->glBufferData(GL_ARRAY_BUFFER, sizeof vertices, vertices, GL_STATIC_DRAW);
+    gl->glVertexAttribPointer(0, 2, GL_SHORT, GL_TRUE, 20, (const void *)8);
+    gl->glBindBuffer(GL_ARRAY_BUFFER, buffers[1]);
+    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[0]);
+    gl->glGenTextures(1, &texture);
+    gl->glActiveTexture(GL_TEXTURE0);
+    gl->glBindTexture(GL_TEXTURE_2D, texture);
+    gl->glActiveTexture(GL_TEXTURE3);
+    gl->glGenRenderbuffers(1, &renderbuffer);
+    gl->glBindRenderbuffer(GL_RENDERBUFFER, renderbuffer);
+    gl->glDisableVertexAttribArray(2);
+    gl->glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
+    for (int pass = 0; pass < 2; pass++) {
+        static const GLenum names[6] = {GL_VERTEX_ATTRIB_ARRAY_SIZE,           GL_VERTEX_ATTRIB_ARRAY_TYPE,
+                                        GL_VERTEX_ATTRIB_ARRAY_NORMALIZED,     GL_VERTEX_ATTRIB_ARRAY_STRIDE,
+                                        GL_VERTEX_ATTRIB_ARRAY_BUFFER_BINDING, GL_VERTEX_ATTRIB_ARRAY_ENABLED};
+
+        take(pass ? &after : &before);
+        for (int i = 0; i < 6; i++)
+            gl->glGetVertexAttribiv(0, names[i], &array[pass][i]);
+        gl->glGetVertexAttribPointerv(0, GL_VERTEX_ATTRIB_ARRAY_POINTER, &pointer[pass]);
+        if (!pass)
+            assert_true(described().proven != 0);
+    }
+    for (int i = 0; i < STATES; i++)
+        if (memcmp(before.values[i], after.values[i], sizeof before.values[i]) != 0)
+            fail_msg("state 0x%04x was %g and is %g", states[i].name, (double)before.values[i][0],
+                     (double)after.values[i][0]);
+    assert_memory_equal(before.arrays, after.arrays, sizeof before.arrays);
+    assert_memory_equal(array[0], array[1], sizeof array[0]);
+    assert_ptr_equal(pointer[0], pointer[1]);
+    gl->glActiveTexture(GL_TEXTURE0);
+    {
+        GLint bound = 0;
+
+        gl->glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
+        assert_int_equal(bound, texture);
+    }
+    gl->glDeleteTextures(1, &texture);
+    gl->glDeleteRenderbuffers(1, &renderbuffer);
+    gl->glDeleteBuffers(2, buffers);
+}
+
 /* The target's bits are those that the platform says it gave. */
 static void the_target_is_described(void **state)
 {
@@ -285,7 +344,8 @@ static int close_it(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(the_promised_state_holds),
-                                       cmocka_unit_test(the_target_is_described)};
+                                       cmocka_unit_test(the_target_is_described),
+                                       cmocka_unit_test(proofs_leave_no_trace)};
 
     return cmocka_run_group_tests_name("state, egl", tests, open_egl, close_it) +
            cmocka_run_group_tests_name("state, osmesa", tests, open_osmesa, close_it);
