@@ -46,6 +46,7 @@ TOOLS   := $(filter-out $(B)/tools/main.o,$(call objects,tools/*.c tools/*/*.c p
 SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/*))
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
+BENCHES := $(patsubst %.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
 PUBLIC  := port/gn_port.h core/gnomon.h core/gn_capability.h core/gn_matrix.h gles/gnomon_gles.h gles/gn_gl.h gles/gl_funcs.h
 SCENES  := build/scenes/scenes.txt
 
@@ -54,7 +55,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: all deps demo test truth headers layers asan valgrind size install install-lib format clean help check-build force
+.PHONY: all deps demo test truth bench headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -69,6 +70,9 @@ test: $(TESTS) $(B)/tests/truth/truth_table $(B)/gnomon $(SCENES) headers layers
 
 truth: $(B)/gnomon $(B)/tests/truth/truth_table $(SCENES) ## masks of all test scenes against the ray-traced truth
 	@sh tests/truth/truth.sh $(B) $(TRUTH_ARGS)
+
+bench: $(BENCHES) ## what things cost: counts, and times as remarks
+	@for b in $(BENCHES); do $$b > /dev/null && $$b || exit 1; done
 
 headers: ## each public header compiles alone, as C99 and, where there is a compiler for it, as C++
 	@for h in $(PUBLIC); do case $$h in *gl_funcs.h) continue;; esac; \
@@ -149,7 +153,7 @@ $(SCENES): $(wildcard tests/scenes/*.py)
 
 # `make deps demo` on a bare machine: nothing is built before what builds it is there.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(B)/tests/truth/truth_table) headers layers check-build: | deps
+$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table) headers layers check-build: | deps
 endif
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -4,8 +4,6 @@
  * target's red has: a ramp is drawn, blended, and read. */
 #include "proofs.h"
 
-#include "shaders/ramp.frag.h"
-
 static int top_level(const gni_proofs *p)
 {
     return (1 << (p->target->red_bits < 8 ? p->target->red_bits : 8)) - 1;
@@ -14,9 +12,7 @@ static int top_level(const gni_proofs *p)
 /* The level that the ramp has at a pixel of the cell, and the one that is there now. */
 static int ramp_level(const gni_proofs *p, int x, int y)
 {
-    const int level = x + CELL * y, top = top_level(p);
-
-    return level < top ? level : top;
+    return (x + CELL * y) & top_level(p);
 }
 
 static int red_level(const gni_proofs *p, int x, int y)
@@ -24,16 +20,25 @@ static int red_level(const gni_proofs *p, int x, int y)
     return (p->pixels[4 * (p->width * y + x)] * top_level(p) + 127) / 255;
 }
 
+/* The bits of a level one by one, added to the pixels whose number has them. No shader does it: one that reads
+ * gl_FragCoord costs the drivers of processors more than all other proofs of blending. */
 static void draw_ramp(gni_proofs *p)
 {
-    const float origin[2] = {(float)p->x, (float)p->y}, levels[2] = {(float)top_level(p), 1.0f / (float)top_level(p)};
+    const int top = top_level(p);
 
-    if (!gni_use_shader(p, "ramp", "", gni_shader_ramp_frag))
-        return;
-    p->gl->glUniform2fv(gni_uniform(p, "u_origin"), 1, origin);
-    p->gl->glUniform2fv(gni_uniform(p, "u_levels"), 1, levels);
-    gni_draw_rectangle(p, 0, 0, CELL, CELL, 0.0f, 0, gni_white);
-    gni_use_own_shader(p);
+    p->gl->glEnable(GL_BLEND);
+    p->gl->glBlendFunc(GL_ONE, GL_ONE);
+    for (int bit = 1; bit <= top; bit *= 2) {
+        const float value = (float)bit / (float)top, color[4] = {value, value, value, value};
+        const int length = bit < CELL ? bit : bit / CELL; /* of a run of columns, or of rows */
+
+        for (int at = length; at < CELL; at += 2 * length)
+            if (bit < CELL)
+                gni_draw_rectangle(p, at, 0, length, CELL, 0.0f, 0, color);
+            else
+                gni_draw_rectangle(p, 0, at, CELL, length, 0.0f, 0, color);
+    }
+    p->gl->glDisable(GL_BLEND);
 }
 
 static void blend(gni_proofs *p, GLenum equation, GLenum source, GLenum destination, int level)

@@ -81,7 +81,7 @@ static int read(gni_proofs *p)
     return error == GL_NO_ERROR ? 1 : gni_failed(p, "it cannot be read (0x%04X)", error);
 }
 
-static const int is_red[4] = {255, 0, 0, -1}, is_green[4] = {0, 255, 0, -1}, is_blue[4] = {0, 0, 255, -1};
+static const int is_red[4] = {255, 0, 0, -1}, is_black[4] = {0, 0, 0, -1}, is_blue[4] = {0, 0, 255, -1};
 
 static int holds_color(gni_proofs *p, GLenum format, GLenum type)
 {
@@ -91,10 +91,11 @@ static int holds_color(gni_proofs *p, GLenum format, GLenum type)
     make(p, &o, format, type);
     ok = is_complete(p);
     if (ok) {
-        start(p, GL_COLOR_BUFFER_BIT);
-        gni_draw_rectangle(p, 0, 0, 8, SIZE, 0.0f, 0, gni_red);
+        gni_fresh_state(p);
+        p->gl->glClearColor(1.0f, 0.0f, 0.0f, 1.0f);
+        p->gl->glClear(GL_COLOR_BUFFER_BIT);
         gni_draw_rectangle(p, 8, 0, 8, SIZE, 0.0f, 0, gni_blue);
-        ok = read(p) && gni_is_color(p, 0, 0, 8, SIZE, is_red, "red is not red") &&
+        ok = read(p) && gni_is_color(p, 0, 0, 8, SIZE, is_red, "cleared to red it is not red") &&
              gni_is_color(p, 8, 0, 8, SIZE, is_blue, "blue is not blue");
     }
     drop(p, &o);
@@ -137,9 +138,9 @@ static int holds_both(gni_proofs *p)
     if (ok) {
         start(p, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
         gl->glEnable(GL_DEPTH_TEST);
-        gni_draw_rectangle(p, 0, 0, 8, SIZE, 0.0f, 0, gni_blue);
         gl->glEnable(GL_STENCIL_TEST);
         gl->glStencilOp(GL_KEEP, GL_INCR, GL_KEEP);
+        gni_draw_rectangle(p, 0, 0, 8, SIZE, 0.0f, 0, gni_blue);
         gni_draw_rectangle(p, 0, 0, SIZE, SIZE, 0.5f, 0, gni_blue);
         gl->glDisable(GL_DEPTH_TEST);
         gl->glStencilFunc(GL_EQUAL, 1, ~0u);
@@ -174,10 +175,9 @@ static int shares_depth(gni_proofs *p)
     ok = ok && is_complete(p);
     if (ok) {
         start(p, GL_COLOR_BUFFER_BIT);
-        gni_draw_rectangle(p, 0, 0, SIZE, SIZE, 0.0f, 0, gni_green);
         gl->glEnable(GL_DEPTH_TEST);
         gni_draw_rectangle(p, 0, 0, SIZE, SIZE, 0.5f, 0, gni_red);
-        ok = read(p) && gni_is_color(p, 0, 0, 8, SIZE, is_green, "depth of the first does not hide in the second") &&
+        ok = read(p) && gni_is_color(p, 0, 0, 8, SIZE, is_black, "depth of the first does not hide in the second") &&
              gni_is_color(p, 8, 0, 8, SIZE, is_red, "depth of the second is not what the first left");
     }
     drop(p, &second);

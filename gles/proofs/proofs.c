@@ -111,7 +111,7 @@ static int is_possible(gni_proofs *p, gn_capability c, uint32_t uses, uint32_t t
     const uint32_t missing = (uses & ~p->offered) | (touches & p->target->hidden);
 
     if (c == GN_CAPABILITY_COUNT)
-        return 1; /* a measurement: it has no symptom */
+        return 1; /* a trial: it has no symptom */
     if (!gni_proofs_can(p, c))
         return 0;
     p->symptom = p->g->symptoms[c];
@@ -139,10 +139,10 @@ static void settle(gni_proofs *p, gn_capability c, uint32_t uses, int holds)
 
 static const gni_cell_proof *const cell_proofs[] = {
     &gni_proofs_of_depth[0], /* others ask whether it holds */
-    &gni_proofs_of_depth[1],     &gni_proofs_of_depth[2],    &gni_proofs_of_stencil[0],  &gni_proofs_of_stencil[1],
-    &gni_proofs_of_stencil[2],   &gni_proofs_of_blending[0], &gni_proofs_of_blending[1], &gni_proofs_of_blending[2],
-    &gni_proofs_of_blending[3],  &gni_proofs_of_shaders[0],  &gni_proofs_of_shaders[1],  &gni_proofs_of_shaders[2],
-    &gni_measurement_of_mediump,
+    &gni_proofs_of_depth[1],    &gni_proofs_of_depth[2],    &gni_proofs_of_stencil[0],  &gni_proofs_of_stencil[1],
+    &gni_proofs_of_stencil[2],  &gni_proofs_of_blending[0], &gni_proofs_of_blending[1], &gni_proofs_of_blending[2],
+    &gni_proofs_of_blending[3], &gni_trial_of_shaders,      &gni_proofs_of_shaders[0],  &gni_proofs_of_shaders[1],
+    &gni_proofs_of_shaders[2],
 };
 enum { CELLS = sizeof cell_proofs / sizeof cell_proofs[0] };
 

@@ -18,8 +18,9 @@ typedef struct gni_proofs {
     /* The cell at hand: where it is, how much of it the target holds, and, once read, its pixels. */
     GLint x, y;
     int width, height;
-    uint8_t pixels[CELL * CELL * 4]; /* [height][width][4] */
-    char *symptom;                   /* [GNI_SYMPTOM] of the proof at hand */
+    uint8_t pixels[CELL * CELL * 4];              /* [height][width][4] */
+    int highp_bits, front_is_front, back_is_back; /* what the trial of shaders left */
+    char *symptom;                                /* [GNI_SYMPTOM] of the proof at hand */
     /* What rectangles are drawn with: the program of volumes, or one of the proof's own. */
     GLuint program;
     GLint near_matrix, color;
@@ -35,7 +36,7 @@ typedef struct gni_cell_proof {
 
 extern const gni_cell_proof gni_proofs_of_stencil[3], gni_proofs_of_depth[3], gni_proofs_of_blending[4];
 extern const gni_cell_proof gni_proofs_of_shaders[3];
-extern const gni_cell_proof gni_measurement_of_mediump; /* of no capability */
+extern const gni_cell_proof gni_trial_of_shaders; /* of no capability: those of shaders read what it left */
 
 /* Those that no other may stand beside: 1, or 0 having said why. They start from the same state, the cell at hand being
  * the first, and may leave another framebuffer bound. */

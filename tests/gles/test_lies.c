@@ -80,8 +80,8 @@ static void GL_APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar
         from = "void main()", to = "void told_main()";
     else if (lies("facing is inverted"))
         from = "gl_FrontFacing", to = "!gl_FrontFacing";
-    else if (lies("highp is mediump"))
-        from = "precision highp", to = "precision mediump";
+    else if (lies("highp is mediump") && strstr(parts[count - 1], "u_high_ones"))
+        from = "highp ", to = "mediump ";
     for (GLsizei i = 0; i < count; i++) {
         const char *at = parts[i], *found;
 
