@@ -11,19 +11,28 @@
  * 6). A triangle that lies wholly behind such a plane shadows nothing that is seen.
  *
  * Candidates are the faces of two boxes around what is seen and receives, one along the view's axes and one along
- * the world's: a floor under a lamp ends right below itself. When one plane serves a whole caster, it is taken;
- * otherwise each triangle takes the plane that keeps its end nearest to the eye, and the caster's volume falls into
- * as many closed volumes as there are planes. A triangle that no face serves (a large one, seen under a wide angle
- * from a light close to it) gets a plane parallel to itself. */
+ * the world's: a floor under a lamp ends right below itself. When one plane serves a whole caster, it is taken.
+ *
+ * Otherwise the volume may end by reach: all vertices are moved away from the light by one factor of their distance (by
+ * one distance, if it is directional), such that the nearest point of the caster comes to lie behind all that is seen.
+ * That is right for any caster, in one piece, but a light close to one triangle carries the others far off: a perspective
+ * camera whose far plane is at infinity does not mind, others do.
+ *
+ * Where there is no room for that, each triangle takes the plane that keeps its end nearest to the eye, and the caster's
+ * volume falls into as many closed volumes as there are planes. A triangle that no face serves (a large one, seen under
+ * a wide angle from a light close to it) gets a plane parallel to itself. Volumes that touch have sides back to back:
+ * where a surface cuts such a seam within a step or two of depth, a pixel may come out wrong. */
 #include "gn_matrix.h"
 #include "gni.h"
 
 #include <math.h>
 #include <string.h>
 
-#define MARGIN (1.0 / 4096.0) /* of the diagonal of what is seen: many steps of even 16 bits of depth, and no more */
-#define LIMIT  (1.0 - 1.0 / 1048576.0) /* of zfar: what is rounded stays inside */
-#define STEPS  4.0                     /* of depth between a perspective camera's receivers and an end, at least */
+#define MARGIN     (1.0 / 4096.0) /* of the diagonal of what is seen: many steps of even 16 bits of depth, and no more */
+#define LIMIT      (1.0 - 1.0 / 1048576.0) /* of zfar: what is rounded stays inside */
+#define SLACK      1.25 /* of reach: a light so close that this is lost in rounding to float has no direction left */
+#define MOST_REACH 1e9  /* what it carries off must stay a number in float */
+#define STEPS      4.0  /* of depth between a perspective camera's receivers and an end, at least */
 
 static void grow(double low[3], double high[3], const double p[3])
 {
@@ -114,6 +123,7 @@ void gni_receiver_region(gni_region *region, const gn_scene *scene)
 
     memset(region, 0, sizeof *region);
     region->deepest = camera->zfar != 0.0 && camera->orthographic ? camera->zfar : camera->znear;
+    region->is_deep = !camera->orthographic;
     region->limit = camera->finite_far ? camera->zfar * LIMIT : INFINITY;
     for (int box = 0; box < 2; box++)
         for (int axis = 0; axis < 3; axis++) {
@@ -321,24 +331,124 @@ static int choose_each(gni_ends *ends, const search *s, const int8_t *casting, u
     return 1;
 }
 
+/* The distance from the light to a triangle of view space: to its plane, if it is hit at right angles inside, else to an
+ * edge (Ericson 2005, section 5.1, treats the cases alike). */
+static double distance_to(const double light[3], double v[3][3])
+{
+    double nearest = INFINITY, n[3], at[3][3], inside = 1.0, area = 0.0, height = 0.0;
+
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            at[k][i] = v[k][i] - light[i];
+    for (int k = 0; k < 3; k++) {
+        const double *a = at[k], *b = at[(k + 1) % 3];
+        double along[3], t = 0.0, square = 0.0, gap = 0.0;
+
+        for (int i = 0; i < 3; i++) {
+            along[i] = b[i] - a[i];
+            square += along[i] * along[i];
+            t -= a[i] * along[i];
+        }
+        t = square > 0.0 ? fmin(fmax(t / square, 0.0), 1.0) : 0.0;
+        for (int i = 0; i < 3; i++)
+            gap += (a[i] + t * along[i]) * (a[i] + t * along[i]);
+        nearest = fmin(nearest, sqrt(gap));
+    }
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+
+        n[i] = (at[1][j] - at[0][j]) * (at[2][k] - at[0][k]) - (at[1][k] - at[0][k]) * (at[2][j] - at[0][j]);
+        area += n[i] * n[i];
+    }
+    for (int k = 0; k < 3; k++) {
+        const double *a = at[k], *b = at[(k + 1) % 3];
+
+        inside = fmin(inside, n[0] * (a[1] * b[2] - a[2] * b[1]) + n[1] * (a[2] * b[0] - a[0] * b[2]) +
+                                  n[2] * (a[0] * b[1] - a[1] * b[0]));
+        height += n[k] * at[0][k];
+    }
+    return area > 0.0 && inside > 0.0 ? fmin(nearest, fabs(height) / sqrt(area)) : nearest;
+}
+
+/* How far all vertices must be moved to lie behind what is seen, and the view distance of the farthest then. Returns
+ * INFINITY when the light touches the caster. */
+static double reach_depth(const search *s, const int8_t *casting, double *reach)
+{
+    const double *l = s->light, length = sqrt(l[0] * l[0] + l[1] * l[1] + l[2] * l[2]);
+    const gni_region *r = s->region;
+    double nearest = INFINITY, highest = -INFINITY, lowest = INFINITY, radius = 0.0, deepest = -INFINITY;
+
+    for (int corner = 0; corner < 8; corner++) {
+        double along = 0.0, square = 0.0;
+
+        for (int i = 0; i < 3; i++) {
+            const double c = corner >> i & 1 ? r->corner_max[0][i] : r->corner_min[0][i];
+
+            along += c * l[i];
+            square += (c - l[i]) * (c - l[i]);
+        }
+        lowest = fmin(lowest, along / length);
+        radius = fmax(radius, sqrt(square));
+    }
+    for (uint32_t t = 0; t < s->mesh->info.triangle_count; t++) {
+        double v[3][3];
+
+        if (!casting[t])
+            continue;
+        triangle_in_view(s, t, v);
+        if (l[3] != 0.0)
+            nearest = fmin(nearest, distance_to(l, v));
+        for (int k = 0; k < 3; k++)
+            highest = fmax(highest, (v[k][0] * l[0] + v[k][1] * l[1] + v[k][2] * l[2]) / length);
+    }
+    *reach = l[3] != 0.0 ? SLACK * radius / nearest : highest - lowest;
+    if (!(*reach < MOST_REACH))
+        return INFINITY;
+    if (*reach <= (l[3] != 0.0 ? 1.0 : 0.0)) /* the caster itself lies behind all that is seen */
+        return -INFINITY;
+    for (uint32_t t = 0; t < s->mesh->info.triangle_count; t++) {
+        double v[3][3];
+
+        if (!casting[t])
+            continue;
+        triangle_in_view(s, t, v);
+        for (int k = 0; k < 3; k++) {
+            const double far = l[3] != 0.0 ? l[2] + *reach * (v[k][2] - l[2]) : v[k][2] - *reach * l[2] / length;
+
+            deepest = fmax(deepest, fmax(-v[k][2], -far));
+        }
+    }
+    return deepest;
+}
+
 int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mesh, const double model_view[16],
                     const double light[4], const int8_t *casting, uint8_t *end_of)
 {
     const search s = {region, mesh, model_view, light};
     uint32_t best;
-    double depth;
+    double depth, most;
 
     ends->count = 0;
+    ends->reach = 0.0;
     ends->deepest = -INFINITY;
     if (region->empty)
         return 1;
+    most = region->is_deep ? region->limit : fmin(2.0 * region->deepest + region->corner_max[0][2], region->limit);
     depth = best_common(&s, casting, &best);
-    if (depth <= fmin(2.0 * region->deepest + region->corner_max[0][2], region->limit)) {
+    if (depth <= most && depth < INFINITY) {
         ends->count = depth == -INFINITY ? 0 : 1; /* nothing casts: no volume */
         memcpy(ends->planes[0], region->planes[best], sizeof ends->planes[0]);
         ends->deepest = depth;
         memset(end_of, 0, mesh->info.triangle_count);
         return 1;
     }
+    depth = reach_depth(&s, casting, &ends->reach);
+    if (depth <= most && depth < INFINITY) {
+        ends->count = depth > -INFINITY ? 1 : 0;
+        ends->deepest = depth;
+        memset(end_of, 0, mesh->info.triangle_count);
+        return 1;
+    }
+    ends->reach = 0.0;
     return choose_each(ends, &s, casting, end_of);
 }

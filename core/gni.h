@@ -99,6 +99,8 @@ double gni_depth_of(const gn_camera *camera, const double range[2], double dista
 /* extrude.c */
 /* The matrix that moves a point away from the light onto a plane: (plane . light) I - light plane^T. */
 void gni_extrusion(double out[16], const double light[4], const double plane[4]);
+/* The matrix that moves a point away from the light by a factor of its distance, or, directional, by a distance. */
+void gni_extrusion_by(double out[16], const double light[4], double reach);
 
 /* choose.c */
 typedef struct gni_choice {
@@ -124,6 +126,7 @@ typedef struct gni_region {
     double view_to_axes[16];                   /* turns view space to the world's axes */
     double deepest;                            /* view distance of the farthest thing that can be seen */
     double limit;                              /* view distance that no volume may pass; INFINITY mostly */
+    int is_deep;                               /* ends cost no precision as long as they keep the limit */
     int empty;
 } gni_region;
 
@@ -133,6 +136,7 @@ void gni_receiver_region(gni_region *region, const gn_scene *scene);
 typedef struct gni_ends {
     uint32_t count;                 /* of planes; 0: no triangle casts on what is visible */
     double planes[GNI_MAX_ENDS][4]; /* view space */
+    double reach;                   /* not 0: there is one end, not on a plane, but so far: see gni_extrusion_by() */
     double deepest;                 /* view distance of the farthest vertex of caster or end */
 } gni_ends;
 

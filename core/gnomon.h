@@ -264,7 +264,8 @@ typedef struct gn_record {
     uint32_t first_index;
     uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
     int mirrored;                                                           /* the model matrix swaps front and back */
-    double end_plane[4];  /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
+    double end_plane[4]; /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
+    double end_reach;    /* not 0: no plane; it ends at so many times its distance from the light, or so much farther */
     float far_matrix[16]; /* a far vertex's clip position is this times its position */
 } gn_record;
 

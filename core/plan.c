@@ -180,23 +180,27 @@ static void plane_before(double out[4], const double plane[4], const double m[16
     memcpy(out, r, sizeof r);
 }
 
-/* One closed volume: the casting triangles of one end plane (view space), a record for each chunk that has any of
- * it. Everything is extruded in view space: no inverse of the model matrix is needed. */
+/* One closed volume: the casting triangles of one end, a plane (view space) or a reach; a record for each chunk that
+ * has any of it. Everything is extruded in view space: no inverse of the model matrix is needed. */
 static void add_records(draft *d, uint32_t light, uint32_t object_index, const int8_t *casting,
-                        const double light_view[4], const double end_plane[4])
+                        const double light_view[4], const double end_plane[4], double reach)
 {
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
     const unsigned parts = parts_for(d->lights[light].method, object);
-    const int at_infinity = end_plane[0] == 0.0 && end_plane[1] == 0.0 && end_plane[2] == 0.0;
+    const int at_infinity = reach == 0.0 && end_plane[0] == 0.0 && end_plane[1] == 0.0 && end_plane[2] == 0.0;
     const int converging = at_infinity && light_view[3] == 0.0;
-    double matrix[16], extrusion[16], far_matrix[16], plane_world[4];
+    double matrix[16], extrusion[16], far_matrix[16], plane_world[4] = {0, 0, 0, 0};
 
-    gni_extrusion(extrusion, light_view, end_plane);
+    if (reach > 0.0) {
+        gni_extrusion_by(extrusion, light_view, reach);
+    } else {
+        gni_extrusion(extrusion, light_view, end_plane);
+        plane_before(plane_world, end_plane, d->view);
+    }
     gni_model_view(matrix, &d->scene->camera, object->model, mesh->info.centre);
     gn_mat4_multiply(far_matrix, d->projection, extrusion);
     gn_mat4_multiply(far_matrix, far_matrix, matrix);
-    plane_before(plane_world, end_plane, d->view);
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         gn_record *r = &d->records[d->plan->record_count];
         gni_stream stream;
@@ -218,6 +222,7 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
         r->turned_cap_count = stream.turned_cap;
         r->mirrored = d->objects[object_index].mirrored;
         memcpy(r->end_plane, plane_world, sizeof r->end_plane);
+        r->end_reach = reach;
         gn_mat4_to_float(r->far_matrix, far_matrix);
         d->plan->index_count += count;
         d->plan->record_count++;
@@ -246,7 +251,7 @@ static gn_result refuse_ends(draft *d, uint32_t light, uint32_t object)
                    clamp);
 }
 
-/* A caster's volumes, one for each end plane. */
+/* A caster's volumes, one for each end. */
 static gn_result add_ended(draft *d, uint32_t light, uint32_t object_index, const double light_view[4])
 {
     const gn_object *object = &d->scene->objects[object_index];
@@ -264,7 +269,7 @@ static gn_result add_ended(draft *d, uint32_t light, uint32_t object_index, cons
             any |= d->group[t];
         }
         if (any)
-            add_records(d, light, object_index, d->group, light_view, d->ends->planes[p]);
+            add_records(d, light, object_index, d->group, light_view, d->ends->planes[p], d->ends->reach);
     }
     return GN_OK;
 }
@@ -287,7 +292,7 @@ static gn_result add_volumes(draft *d, uint32_t light)
         if (d->plan->far_ends == GN_FAR_ENDED)
             result = add_ended(d, light, i, light_view);
         else
-            add_records(d, light, i, d->casting, light_view, infinity);
+            add_records(d, light, i, d->casting, light_view, infinity, 0.0);
         if (d->plan->record_count > before) {
             about->casters++;
             about->cases[about->method == GN_METHOD_ZPASS ? 0 : 2]++;

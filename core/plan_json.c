@@ -61,7 +61,9 @@ static void put_record(writer *w, const gn_record *r)
         put(w, "%s", i ? ", " : "");
         put_number(w, r->end_plane[i]);
     }
-    put(w, "]}");
+    put(w, "], \"end_reach\": ");
+    put_number(w, r->end_reach);
+    put(w, "}");
 }
 
 static void put_step(writer *w, const gn_step *s)
