@@ -55,7 +55,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: all deps demo test truth bench headers layers asan valgrind size install install-lib format clean help check-build force
+.PHONY: all deps demo test truth bench boards headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -73,6 +73,9 @@ truth: $(B)/gnomon $(B)/tests/truth/truth_table $(SCENES) ## masks of all test s
 
 bench: $(BENCHES) ## what things cost: counts, and times as remarks
 	@for b in $(BENCHES); do $$b > /dev/null && $$b || exit 1; done
+
+boards: $(B)/gnomon ## probe every driver that this machine can run, into docs/boards.md
+	@$(PYTHON) tests/boards.py $(B)/gnomon > build/boards.md && mv build/boards.md docs/boards.md
 
 headers: ## each public header compiles alone, as C99 and, where there is a compiler for it, as C++
 	@for h in $(PUBLIC); do case $$h in *gl_funcs.h) continue;; esac; \

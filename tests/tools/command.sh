@@ -41,11 +41,14 @@ ok "help lists the commands" sh -c "$gnomon help | grep -q '  probe'"
 ok "methods lists zfail and zpass" sh -c "$gnomon methods | grep -q '^zfail  *exact' && $gnomon methods | grep -q '^zpass  *inexact'"
 ok "probe names driver and methods" sh -c "$gnomon probe --platform egl | grep -q 'zfail  *possible'"
 ok "probe --json is JSON" sh -c "$gnomon probe --json | python3 -c 'import json, sys; assert len(json.load(sys.stdin)) == 2'"
+ok "probe says what is hidden" sh -c "$gnomon probe --platform egl --hide w0 | grep -qE '^  w0 +yes +no +yes'"
+ok "GNOMON_HIDE hides too" sh -c "GNOMON_HIDE=stencil $gnomon probe --platform egl | grep -q 'zfail .*needs stencil, which is hidden'"
+ok "probe says how a method works" sh -c "$gnomon probe --platform egl --hide stencil-wrap | grep -q 'zfail  *possible; counts from -128 to 127'"
 
 refuses 2 "a command is missing"
 refuses 2 "(draw)" draw
 refuses 2 "takes one scene (0 given)" render
-refuses 2 "nothing to write" render $scenes/cube_point.gltf
+refuses 2 "nothing to do" render $scenes/cube_point.gltf
 refuses 2 "(--colour)" render $scenes/cube_point.gltf -o "$tmp/x.png" --colour
 refuses 2 "(640)" render $scenes/cube_point.gltf -o "$tmp/x.png" --size 640
 refuses 2 "(0x480)" render $scenes/cube_point.gltf -o "$tmp/x.png" --size 0x480
@@ -54,6 +57,10 @@ refuses 2 "(many)" render $scenes/cube_point.gltf -o "$tmp/x.png" --frames many
 refuses 2 "(magic)" render $scenes/cube_point.gltf -o "$tmp/x.png" --method magic
 refuses 2 "(x11)" render $scenes/cube_point.gltf -o "$tmp/x.png" --platform x11
 refuses 2 "(dreams)" render $scenes/cube_point.gltf -o "$tmp/x.png" --show dreams
+refuses 2 "(none,w0)" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide none,w0
+refuses 2 "(w0s)" probe --hide alpha,w0s
+refuses 2 "(auto/one-sided)" render $scenes/cube_point.gltf -o "$tmp/x.png" --method auto/one-sided
+refuses 3 "method zfail needs stencil, which is hidden" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil
 refuses 2 "a value is missing" render $scenes/cube_point.gltf -o
 refuses 1 "none.gltf" render "$tmp/none.gltf" -o "$tmp/x.png"
 refuses 1 "cannot be written" render $scenes/cube_point.gltf --size 16x16 -o "$tmp/no/such/x.png"
@@ -95,6 +102,15 @@ done
 ok "no allocation after the first frame" [ "$(numbers "$tmp/r.json" allocations)" = 0 ]
 ok "fragments are counted" [ "$(numbers "$tmp/r.json" fragments_rasterised)" -gt 1000 ]
 ok "fewer pass than are rasterised" [ "$(numbers "$tmp/r.json" fragments_passed)" -lt "$(numbers "$tmp/r.json" fragments_rasterised)" ]
+
+for hide in two-sided-stencil stencil-wrap two-sided-stencil,stencil-wrap w0; do
+    ok "masks without $hide" "$gnomon" render $scenes/colours.gltf --mask-dir "$tmp/hidden" --size 160x120 --platform egl --hide $hide
+    ok "are the same" diff -r "$tmp/egl" "$tmp/hidden"
+done
+ok "one-sided by name" "$gnomon" render $scenes/colours.gltf --mask-dir "$tmp/hidden" --size 160x120 --platform egl --method zfail/one-sided --report "$tmp/o.json"
+ok "gives the same" diff -r "$tmp/egl" "$tmp/hidden"
+ok "and is reported" has "$tmp/o.json" 'zfail/one-sided'
+ok "--explain says why" sh -c "$gnomon render $scenes/cube_point.gltf --size 16x16 --explain --hide two-sided-stencil | grep -q '^light 0: zfail/one-sided: exact for any view; in culled passes, since two-sided-stencil is hidden$'"
 
 printf '{"asset": {"version": "2.0"}}' > "$tmp/empty.gltf"
 ok "an empty scene is drawn" "$gnomon" render "$tmp/empty.gltf" -o "$tmp/empty.png" --size 16x16
