@@ -18,10 +18,11 @@
  * That is right for any caster, in one piece, but a light close to one triangle carries the others far off: a perspective
  * camera whose far plane is at infinity does not mind, others do.
  *
- * Where there is no room for that, each triangle takes the plane that keeps its end nearest to the eye, and the caster's
- * volume falls into as many closed volumes as there are planes. A triangle that no face serves (a large one, seen under
- * a wide angle from a light close to it) gets a plane parallel to itself. Volumes that touch have sides back to back:
- * where a surface cuts such a seam within a step or two of depth, a pixel may come out wrong. */
+ * Where there is no room for that before a finite far plane, there is no end. For an orthographic camera, which has no
+ * other way, each triangle then takes the plane that keeps its end nearest to the eye, and the caster's volume falls into
+ * as many closed volumes as there are planes. A triangle that no face serves (a large one, seen under a wide angle from
+ * a light close to it) gets a plane parallel to itself. Volumes that touch have sides back to back: where a surface cuts
+ * such a seam within a step or two of depth, a pixel may come out wrong. */
 #include "gn_matrix.h"
 #include "gni.h"
 
@@ -450,5 +451,5 @@ int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mes
         return 1;
     }
     ends->reach = 0.0;
-    return choose_each(ends, &s, casting, end_of);
+    return region->is_deep ? 0 : choose_each(ends, &s, casting, end_of);
 }

@@ -126,7 +126,7 @@ typedef struct gni_region {
     double view_to_axes[16];                   /* turns view space to the world's axes */
     double deepest;                            /* view distance of the farthest thing that can be seen */
     double limit;                              /* view distance that no volume may pass; INFINITY mostly */
-    int is_deep;                               /* ends cost no precision as long as they keep the limit */
+    int is_deep;                               /* ends cost no precision as long as they keep the limit; one must do */
     int empty;
 } gni_region;
 
@@ -141,8 +141,8 @@ typedef struct gni_ends {
 } gni_ends;
 
 /* Chooses end planes. light: [4] view space. end_of: [triangle_count] receives the plane of each casting triangle, or
- * GNI_MAX_ENDS for one that shadows nothing visible. Returns 0 when no GNI_MAX_ENDS planes end them all before the
- * region's limit. */
+ * GNI_MAX_ENDS for one that shadows nothing visible. Returns 0 when nothing ends them all before the region's limit: one
+ * end where the region is deep, else GNI_MAX_ENDS planes. */
 int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mesh, const double model_view[16],
                     const double light[4], const int8_t *casting, uint8_t *end_of);
 #endif

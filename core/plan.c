@@ -63,7 +63,7 @@ static int lay_out(draft *d, arena *a)
 
         if (!mesh || !(s->objects[i].flags & GN_CASTS))
             continue;
-        if (are_ended)
+        if (s->camera.orthographic)
             ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
         if (mesh->info.chunk_count > (most - records) / ends || mesh->info.triangle_count > (most - indices) / 24)
             return 0;
@@ -229,8 +229,8 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
     }
 }
 
-/* No plane ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not
- * stop the frame; elsewhere depth clamp would have done, and the frame is refused. */
+/* Nothing ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not stop
+ * the frame; elsewhere depth clamp would have done, and the frame is refused. */
 static gn_result refuse_ends(draft *d, uint32_t light, uint32_t object)
 {
     const gn_camera *camera = &d->scene->camera;
@@ -246,9 +246,8 @@ static gn_result refuse_ends(draft *d, uint32_t light, uint32_t object)
                        "depth-clamp %s",
                        (unsigned long)light, (unsigned long)object, camera->zfar, clamp);
     return gn_fail(d->context, GN_E_DEVICE,
-                   "light %lu is too near to object %lu: its volume needs more than %d ends; w0 %s and depth-clamp %s",
-                   (unsigned long)light, (unsigned long)object, GNI_MAX_ENDS, gni_why_not(&d->scene->target, GN_CAN_W0),
-                   clamp);
+                   "light %lu is too near to object %lu: its volume has no end; w0 %s and depth-clamp %s",
+                   (unsigned long)light, (unsigned long)object, gni_why_not(&d->scene->target, GN_CAN_W0), clamp);
 }
 
 /* A caster's volumes, one for each end. */

@@ -3,7 +3,8 @@
  *     truth_table [--size WxH] [--drivers LIST] [--pixels] SCENES_DIR [SCENE...]
  *
  * A row for each scene, driver, light and way: z-fail and z-pass as the driver can; z-fail with capabilities hidden,
- * which must be the same bits (one-sided, saturating, both) or as right (clamped, ended, unless refused).
+ * which must be the same bits (one-sided, saturating, both) or as right (clamped, ended; under a far plane of the
+ * camera's own finite, finite-end; unless refused).
  *
  * SCENES_DIR holds the .gltf files and scenes.txt, which says of each scene whether z-pass is right there (zpass,
  * nozpass) and whether a slow rasteriser draws it (small, large). Drivers: llvmpipe and softpipe through EGL, osmesa,
@@ -22,6 +23,7 @@
  * right, when two ways differ that must not, when fewer than 80 % of the pixels are certain, or when the masks of
  * llvmpipe and osmesa differ in a single byte. */
 #define _DEFAULT_SOURCE
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -57,17 +59,20 @@ typedef struct way {
     gn_method method;
     uint32_t hidden;
     int same;    /* to the last bit what the first way draws */
-    int may_end; /* volumes end on planes; a light that is too near is refused */
+    int may_end; /* volumes end; a light that is too near may be refused */
+    int finite;  /* the camera has a far plane of its own, at twice the distance of all there is */
 } way;
 
 static const way ways[] = {
-    {"zfail", GN_METHOD_ZFAIL, 0, 0, 0},
-    {"zpass", GN_METHOD_ZPASS, 0, 0, 0},
-    {"one-sided", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL), 1, 0},
-    {"saturating", GN_METHOD_ZFAIL, BIT(GN_CAN_STENCIL_WRAP), 1, 0},
-    {"both", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_STENCIL_WRAP), 1, 0},
-    {"clamped", GN_METHOD_ZFAIL, BIT(GN_CAN_W0), 0, 0},
-    {"ended", GN_METHOD_ZFAIL, BIT(GN_CAN_W0) | BIT(GN_CAN_DEPTH_CLAMP), 0, 1},
+    {"zfail", GN_METHOD_ZFAIL, 0, 0, 0, 0},
+    {"zpass", GN_METHOD_ZPASS, 0, 0, 0, 0},
+    {"one-sided", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL), 1, 0, 0},
+    {"saturating", GN_METHOD_ZFAIL, BIT(GN_CAN_STENCIL_WRAP), 1, 0, 0},
+    {"both", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_STENCIL_WRAP), 1, 0, 0},
+    {"clamped", GN_METHOD_ZFAIL, BIT(GN_CAN_W0), 0, 0, 0},
+    {"ended", GN_METHOD_ZFAIL, BIT(GN_CAN_W0) | BIT(GN_CAN_DEPTH_CLAMP), 0, 1, 0},
+    {"finite", GN_METHOD_ZFAIL, 0, 0, 0, 1},
+    {"finite-end", GN_METHOD_ZFAIL, BIT(GN_CAN_DEPTH_CLAMP), 0, 1, 1},
 };
 enum { DRIVERS = sizeof drivers / sizeof drivers[0], WAYS = sizeof ways / sizeof ways[0] };
 enum { IS_DRAWN = 4 }; /* in masks, beside lit 1 and visible 2 */
@@ -94,6 +99,24 @@ static size_t place_of(const job *j, int d, int w, size_t light)
     return (((size_t)d * WAYS + (size_t)w) * MOST_LIGHTS + light) * pixels_of(j);
 }
 
+/* Twice as far as the farthest corner of the scene. */
+static double far_of(const scene *s)
+{
+    double farthest = 0.0;
+
+    for (int corner = 0; corner < 8; corner++) {
+        double square = 0.0;
+
+        for (int i = 0; i < 3; i++) {
+            const double d = (corner >> i & 1 ? s->bounds_max[i] : s->bounds_min[i]) - s->camera.world[12 + i];
+
+            square += d * d;
+        }
+        farthest = fmax(farthest, sqrt(square));
+    }
+    return 2.0 * farthest;
+}
+
 /* In a process of its own. */
 static int draw_masks(const job *j, scene *loaded, int d)
 {
@@ -118,6 +141,9 @@ static int draw_masks(const job *j, scene *loaded, int d)
             const size_t at = place_of(j, d, w, light);
             int status;
 
+            if (ways[w].finite && (loaded->camera.orthographic || loaded->camera.zfar > 0.0))
+                continue;
+            s->finite_far = ways[w].finite ? far_of(loaded) : 0.0;
             s->target.hidden = ways[w].hidden;
             status = stage_plan(s, &wish, message);
             if (status == 3 && ways[w].may_end && strstr(message, "is too near")) /* refused in words */
@@ -174,7 +200,7 @@ static int compare(const job *j, int d, int w, size_t light)
     int few;
 
     if (!(mask[0] & IS_DRAWN)) {
-        printf("%-18s %-9s %-10s %5lu  refused\n", j->name, drivers[d].name, ways[w].name, (unsigned long)light);
+        printf("%-18s %-9s %-10s %5lu  not drawn\n", j->name, drivers[d].name, ways[w].name, (unsigned long)light);
         return 0;
     }
     for (size_t i = 0; i < n; i++) {
