@@ -101,7 +101,7 @@ static void GL_APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar
     for (GLsizei i = 0; i < count; i++) {
         if (strstr(parts[i], "#define FACING") || strstr(parts[i], "#define FROM_BEHIND !gl_FrontFacing"))
             use(GN_CAN_FRONT_FACING);
-        if (strstr(parts[i], "#define HIGHP"))
+        if (strstr(parts[i], "#define HIGHP") || strstr(parts[i], "#define PRECISION highp"))
             use(GN_CAN_FRAGMENT_HIGHP);
     }
     real.glShaderSource(shader, count, parts, lengths);

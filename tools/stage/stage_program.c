@@ -97,12 +97,14 @@ stage_program *stage_use(stage *s, unsigned kind)
     stage_program *p = &s->programs[kind];
 
     if (!p->name) {
-        char defines[192];
+        char defines[256];
 
         snprintf(defines, sizeof defines,
-                 "#define LIGHTS %u\n#define TEXTURED %d\n#define CUT %d\n#define FLAT %d\n#define FROM_BEHIND %s\n",
+                 "#define LIGHTS %u\n#define TEXTURED %d\n#define CUT %d\n#define FLAT %d\n#define FROM_BEHIND %s\n"
+                 "#define PRECISION %s\n",
                  kind >> STAGE_LIGHT_SHIFT, !!(kind & STAGE_TEXTURED), !!(kind & STAGE_CUT), !!(kind & STAGE_FLAT),
-                 gn_target_can(&s->target, GN_CAN_FRONT_FACING) ? "!gl_FrontFacing" : "(dot(n, v) < 0.0)");
+                 gn_target_can(&s->target, GN_CAN_FRONT_FACING) ? "!gl_FrontFacing" : "(dot(n, v) < 0.0)",
+                 gn_target_can(&s->target, GN_CAN_FRAGMENT_HIGHP) ? "highp" : "mediump");
         p->name = link(s->gl, defines, gni_shader_surface_vert, gni_shader_surface_frag);
         if (!p->name)
             return NULL;

@@ -5,13 +5,10 @@
 // CUT          alphaMode MASK: cut below u_cutoff in every pass
 // FLAT         one colour instead of shading
 // FROM_BEHIND  the back of the face is seen
+// PRECISION    highp where there is one
 //
 // Falloff and cones are those of KHR_lights_punctual.
-#ifdef GL_FRAGMENT_PRECISION_HIGH
-precision highp float;
-#else
-precision mediump float;
-#endif
+precision PRECISION float;
 uniform vec4 u_base;
 uniform vec4 u_flat;
 uniform vec3 u_ambient;    // a share of the base colour
