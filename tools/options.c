@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "command.h"
+#include "gn_capability.h"
 
 static int parse_number(const option *o, const char *text, double *number)
 {
@@ -113,4 +114,14 @@ int parse_options(int count, char **arguments, const option *options, int option
             return -1;
     }
     return kept;
+}
+
+int check_hidden(const char *from, const char *names)
+{
+    uint32_t set = 0;
+    const char *const unknown = gn_capability_parse(names, &set);
+
+    if (unknown)
+        say("%s: no capability has that name: see `gnomon probe` (%s)", from, unknown);
+    return !unknown;
 }

@@ -16,4 +16,7 @@ typedef struct option {
 /* Fills values and puts what is no option first into arguments. Returns how many those are, or -1 having said what
  * is wrong. */
 int parse_options(int count, char **arguments, const option *options, int option_count);
+
+/* 1 when a list of capabilities to hide names none that is not there; else 0, having said so. from: who gave it. */
+int check_hidden(const char *from, const char *names);
 #endif

@@ -183,12 +183,11 @@ static void print_table(const cJSON *o, int indent)
 
 int command_probe(int count, char **arguments)
 {
-    const char *only = NULL, *hide = NULL, *unknown;
+    const char *only = NULL, *hide = NULL;
     int json = 0, known = 0;
     const option options[] = {{"--platform", OPTION_TEXT, &only, 0, 0},
                               {"--hide", OPTION_TEXT, &hide, 0, 0},
                               {"--json", OPTION_FLAG, &json, 0, 0}};
-    uint32_t hidden = 0;
     cJSON *all;
     char *text;
 
@@ -198,11 +197,8 @@ int command_probe(int count, char **arguments)
             say("probe: takes no names (%s)", arguments[0]);
         return EXIT_USAGE;
     }
-    unknown = gn_capability_parse(hide, &hidden);
-    if (unknown) {
-        say("--hide: no capability has that name: see `gnomon probe` (%s)", unknown);
+    if (!check_hidden("--hide", hide) || !check_hidden("GNOMON_HIDE", getenv("GNOMON_HIDE")))
         return EXIT_USAGE;
-    }
     all = cJSON_CreateArray();
     for (int i = 0; platform_kinds[i]; i++) {
         cJSON *o;

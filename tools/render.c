@@ -306,8 +306,6 @@ int command_render(int count, char **arguments)
 {
     static const char *const shows[] = {"volumes", "silhouette", "mask", NULL};
     job j = {.method_name = "auto", .size = {800, 600}, .frames = 1};
-    uint32_t hidden = 0;
-    const char *unknown;
     const option options[] = {
         {"-o", OPTION_TEXT, &j.frame, 0, 0},
         {"--size", OPTION_SIZE, j.size, 1, 16384},
@@ -340,11 +338,8 @@ int command_render(int count, char **arguments)
         say("--method: no method has that name: see `gnomon methods` (%s)", j.method_name);
         return EXIT_USAGE;
     }
-    unknown = gn_capability_parse(j.hide, &hidden);
-    if (unknown) {
-        say("--hide: no capability has that name: see `gnomon probe` (%s)", unknown);
+    if (!check_hidden("--hide", j.hide) || !check_hidden("GNOMON_HIDE", getenv("GNOMON_HIDE")))
         return EXIT_USAGE;
-    }
     if (j.show && !one_of(j.show, shows)) {
         say("--show: takes volumes, silhouette or mask (%s)", j.show);
         return EXIT_USAGE;

@@ -59,6 +59,10 @@ refuses 2 "(x11)" render $scenes/cube_point.gltf -o "$tmp/x.png" --platform x11
 refuses 2 "(dreams)" render $scenes/cube_point.gltf -o "$tmp/x.png" --show dreams
 refuses 2 "(none,w0)" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide none,w0
 refuses 2 "(w0s)" probe --hide alpha,w0s
+export GNOMON_HIDE=bogus
+refuses 2 "GNOMON_HIDE: no capability" probe
+refuses 2 "GNOMON_HIDE: no capability" render $scenes/cube_point.gltf -o "$tmp/x.png"
+unset GNOMON_HIDE
 refuses 2 "(auto/one-sided)" render $scenes/cube_point.gltf -o "$tmp/x.png" --method auto/one-sided
 refuses 3 "method zfail needs stencil, which is hidden" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil
 refuses 2 "a value is missing" render $scenes/cube_point.gltf -o
