@@ -83,6 +83,8 @@ def main():
 
 - softpipe keeps a tile's colours as floats until it writes the tile back: a value between two levels outlives the draw that
   made it, so halving does not round. A `glFinish` between the draws makes it pass.
+- softpipe clamps each vertex to the depth range when it applies a polygon offset: under depth clamp, triangles that leave
+  the range are tilted.
 - armhf llvmpipe on an emulated processor draws depth wrongly unless LP_NUM_THREADS=0. It is the one driver here on which
   frames would come out wrong; it is refused.""")
 

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-static const int is_red[4] = {255, 0, 0, -1}, is_blue[4] = {0, 0, 255, -1};
+static const int is_red[4] = {255, 0, 0, -1}, is_green[4] = {0, 255, 0, -1}, is_blue[4] = {0, 0, 255, -1};
 
 /* Middle; farther over all; nearer over the right half. */
 static void draw_hiding(gni_proofs *p)
@@ -25,20 +25,27 @@ static int hides(gni_proofs *p)
            gni_is_color(p, 8, 0, 8, CELL, is_blue, "what is in front is not drawn");
 }
 
-/* Beyond the far plane, over depth 0.5: drawn, behind it. */
+/* Over depth 0.5 a plane that starts before it and leaves the far plane: drawn where it is behind, also beyond. With the
+ * offset that volumes have: softpipe moves and clamps vertices then, which tilts the plane. */
 static void draw_clamped(gni_proofs *p)
 {
+    static const float tilted[16] = {1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1}; /* z = 1 + 2 x */
+
     p->gl->glEnable(GL_DEPTH_TEST);
     gni_draw_rectangle(p, 0, 0, CELL, CELL, 0.0f, 0, gni_green);
     p->gl->glEnable(GNI_DEPTH_CLAMP);
+    p->gl->glEnable(GL_POLYGON_OFFSET_FILL);
+    p->gl->glPolygonOffset(0.0f, 1.0f);
     p->gl->glDepthFunc(GL_GREATER);
-    gni_draw_rectangle(p, 0, 0, CELL, CELL, 3.0f, 0, gni_red);
+    gni_draw_quad(p, 0, 0, CELL, CELL, tilted, gni_red);
     p->gl->glDisable(GNI_DEPTH_CLAMP);
 }
 
 static int clamps(gni_proofs *p)
 {
-    return gni_is_color(p, 0, 0, CELL, CELL, is_red, "what lies beyond depth 1 is clipped, or not behind depth 0.5");
+    return gni_is_color(p, 0, 0, 4, CELL, is_green, "what lies before depth 0.5 comes behind it") &&
+           gni_is_color(p, 4, 0, 4, CELL, is_red, "depths go wrong in a triangle that leaves the range") &&
+           gni_is_color(p, 8, 0, 8, CELL, is_red, "what lies beyond depth 1 is clipped");
 }
 
 /* Matrices that carry the corners (+-1, +-1, 1) to points before the eye (near) and to the same directions at infinity

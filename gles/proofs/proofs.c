@@ -63,6 +63,12 @@ void gni_use_own_shader(gni_proofs *p)
 void gni_draw_rectangle(gni_proofs *p, int x, int y, int width, int height, float depth, int back, const float color[4])
 {
     const float matrix[16] = {back ? -1.0f : 1.0f, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, depth, 1};
+
+    gni_draw_quad(p, x, y, width, height, matrix, color);
+}
+
+void gni_draw_quad(gni_proofs *p, int x, int y, int width, int height, const float matrix[16], const float color[4])
+{
     const gn_gl *gl = p->gl;
 
     gl->glUseProgram(p->program);

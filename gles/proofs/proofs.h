@@ -55,6 +55,9 @@ int gni_proofs_can(const gni_proofs *p, gn_capability c); /* offered */
 void gni_draw_rectangle(gni_proofs *p, int x, int y, int width, int height, float depth, int back,
                         const float color[4]);
 
+/* The same from the corners (+-1, +-1, 0) by a matrix. */
+void gni_draw_quad(gni_proofs *p, int x, int y, int width, int height, const float matrix[16], const float color[4]);
+
 /* Rectangles are drawn with another fragment shader from here on: 1, or 0 when the GL refuses it. Its uniforms other than
  * u_color are the caller's to set. */
 int gni_use_shader(gni_proofs *p, const char *name, const char *defines, const char *fragment);

@@ -71,7 +71,7 @@ static const way ways[] = {
     {"both", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_STENCIL_WRAP), 1, 0, 0},
     {"clamped", GN_METHOD_ZFAIL, BIT(GN_CAN_W0), 0, 0, 0},
     {"ended", GN_METHOD_ZFAIL, BIT(GN_CAN_W0) | BIT(GN_CAN_DEPTH_CLAMP), 0, 1, 0},
-    {"finite", GN_METHOD_ZFAIL, 0, 0, 0, 1},
+    {"finite", GN_METHOD_ZFAIL, 0, 0, 1, 1},
     {"finite-end", GN_METHOD_ZFAIL, BIT(GN_CAN_DEPTH_CLAMP), 0, 1, 1},
 };
 enum { DRIVERS = sizeof drivers / sizeof drivers[0], WAYS = sizeof ways / sizeof ways[0] };
