@@ -18,13 +18,9 @@ const char *gni_why_not(const gn_target *t, gn_capability c)
     return t->hidden & bit ? "is hidden" : t->advertised & bit ? "fails its proof" : "is not offered";
 }
 
-gn_far gni_far_ends(const gn_scene *s)
+int gni_must_end(const gn_scene *s)
 {
-    if (s->camera.orthographic)
-        return GN_FAR_ENDED;
-    if (!s->camera.finite_far && gn_target_can(&s->target, GN_CAN_W0))
-        return GN_FAR_INFINITE;
-    return gn_target_can(&s->target, GN_CAN_DEPTH_CLAMP) ? GN_FAR_CLAMPED : GN_FAR_ENDED;
+    return s->camera.orthographic || s->camera.finite_far || !gn_target_can(&s->target, GN_CAN_W0);
 }
 
 static void say(gni_choice *choice, const char *format, ...)
@@ -65,18 +61,13 @@ static void choose_layout(const gn_scene *s, gni_choice *choice)
 
 static void choose_far(const gn_scene *s, gni_choice *choice)
 {
-    const gn_target *t = &s->target;
-
-    choice->far_ends = gni_far_ends(s);
-    if (s->camera.orthographic || choice->far_ends == GN_FAR_INFINITE)
+    if (s->camera.orthographic || !gni_must_end(s))
         return;
-    say(choice, "; %s, since ", choice->far_ends == GN_FAR_CLAMPED ? "depth is clamped" : "volumes end on planes");
     if (s->camera.finite_far)
-        say(choice, "the camera's far plane is finite");
+        say(choice, "; volumes end behind what is seen, since the camera's far plane is finite");
     else
-        say(choice, "%s %s", gn_capability_name(GN_CAN_W0), gni_why_not(t, GN_CAN_W0));
-    if (choice->far_ends == GN_FAR_ENDED)
-        say(choice, " and %s %s", gn_capability_name(GN_CAN_DEPTH_CLAMP), gni_why_not(t, GN_CAN_DEPTH_CLAMP));
+        say(choice, "; volumes end behind what is seen, since %s %s", gn_capability_name(GN_CAN_W0),
+            gni_why_not(&s->target, GN_CAN_W0));
 }
 
 gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)

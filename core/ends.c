@@ -30,7 +30,7 @@
 #include <string.h>
 
 #define MARGIN     (1.0 / 4096.0) /* of the diagonal of what is seen: many steps of even 16 bits of depth, and no more */
-#define LIMIT      (1.0 - 1.0 / 1048576.0) /* of zfar: what is rounded stays inside */
+#define INSIDE     (1.0 / 1048576.0) /* of the depth range, before a finite far plane: what is rounded stays inside */
 #define SLACK      1.25 /* of reach: a light so close that this is lost in rounding to float has no direction left */
 #define MOST_REACH 1e9  /* what it carries off must stay a number in float */
 #define STEPS      4.0  /* of depth between a perspective camera's receivers and an end, at least */
@@ -117,6 +117,14 @@ static double steps_at(const gn_scene *scene, const double low[3], const double 
     return STEPS * sqrt(reach) * -low[2] / ldexp(scene->camera.znear, scene->target.depth_bits);
 }
 
+/* The view distance whose depth is INSIDE less than that of zfar. */
+static double limit_of(const gn_camera *camera)
+{
+    const double n = camera->znear, share = n / camera->zfar;
+
+    return n / (share + INSIDE * (1.0 - share));
+}
+
 void gni_receiver_region(gni_region *region, const gn_scene *scene)
 {
     const gn_camera *camera = &scene->camera;
@@ -125,7 +133,7 @@ void gni_receiver_region(gni_region *region, const gn_scene *scene)
     memset(region, 0, sizeof *region);
     region->deepest = camera->zfar != 0.0 && camera->orthographic ? camera->zfar : camera->znear;
     region->is_deep = !camera->orthographic;
-    region->limit = camera->finite_far ? camera->zfar * LIMIT : INFINITY;
+    region->limit = camera->finite_far ? limit_of(camera) : INFINITY;
     for (int box = 0; box < 2; box++)
         for (int axis = 0; axis < 3; axis++) {
             low[box][axis] = INFINITY;

@@ -106,13 +106,13 @@ void gni_extrusion_by(double out[16], const double light[4], double reach);
 typedef struct gni_choice {
     gn_method method;
     gn_stencil_layout stencil;
-    gn_far far_ends;
     char reason[256]; /* as in gn_plan_light */
 } gni_choice;
 
 /* The method that is meant and its way here. GN_E_DEVICE when the target lacks what it needs. */
 gn_result gni_choose(gn_context *context, const gn_scene *scene, gni_choice *choice);
-gn_far gni_far_ends(const gn_scene *scene);
+/* Whether volumes may not reach infinity unless they are clamped. */
+int gni_must_end(const gn_scene *scene);
 /* "is hidden", "fails its proof" or "is not offered". */
 const char *gni_why_not(const gn_target *target, gn_capability capability);
 

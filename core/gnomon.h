@@ -154,8 +154,9 @@ typedef struct gn_camera {
     double znear; /* greater than 0; orthographic: any, less than zfar */
     double zfar;  /* perspective: 0 for infinite. orthographic: greater than znear, or 0 for behind everything */
     /* Perspective: 1 when the host insists on a projection of its own whose far plane is zfar, which must then be given.
-     * Volumes need depth clamp there, or must end before zfar: a light too near to its caster is refused. [0: the
-     * projection's far plane is at infinity, zfar the depth to which the buffer is cleared] */
+     * Volumes must end before it there, or need depth clamp and casters that neither plane cuts: a frame with a caster of
+     * neither kind is refused. [0: the projection's far plane is at infinity, zfar the depth to which the buffer is
+     * cleared] */
     int finite_far;
 } gn_camera;
 
@@ -233,11 +234,11 @@ typedef struct gn_stencil_layout {
     int low, high; /* counts, from the reference, that are kept. Wrapping: of the sum; else also on the way to it */
 } gn_stencil_layout;
 
-/* How the far ends of volumes survive clipping at the far plane. */
+/* How the far end of a volume survives clipping at the far plane. */
 typedef enum gn_far {
     GN_FAR_INFINITE, /* at infinity, w = 0, under a projection that ends there too */
-    GN_FAR_CLAMPED,  /* at infinity, under depth clamp */
-    GN_FAR_ENDED     /* on planes behind all that receives */
+    GN_FAR_CLAMPED,  /* at infinity, drawn under depth clamp */
+    GN_FAR_ENDED     /* behind all that is seen and receives */
 } gn_far;
 
 /* ---- Plan: what will be drawn, as data, decided before any GL call ---- */
@@ -264,6 +265,7 @@ typedef struct gn_record {
     uint32_t first_index;
     uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
     int mirrored;                                                           /* the model matrix swaps front and back */
+    gn_far far_end;
     double end_plane[4]; /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
     double end_reach;    /* not 0: no plane; it ends at so many times its distance from the light, or so much farther */
     float far_matrix[16]; /* a far vertex's clip position is this times its position */
@@ -296,6 +298,9 @@ typedef struct gn_plan_light {
     char reason[256]; /* why this method, and this way of it: a sentence */
     uint32_t casters;
     uint32_t cases[3]; /* casters drawn by McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
+    /* A warning: counts may leave stencil.low .. high, because counting stops there and more triangles cast than that.
+     * Nothing proves that they do not lie behind each other. */
+    int may_overflow;
 } gn_plan_light;
 
 typedef struct gn_plan_object {
@@ -310,7 +315,6 @@ typedef struct gn_plan_object {
 typedef struct gn_plan {
     gn_target target;
     gn_stencil_layout stencil;
-    gn_far far_ends;
     double clear_depth; /* 1, or the depth of zfar */
     double
         depth_range[2]; /* view distances that depth 0 and 1 stand for; [1] is INFINITY for most perspective cameras */

@@ -52,7 +52,7 @@ typedef struct draft {
 static int lay_out(draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
-    const int are_ended = gni_far_ends(s) == GN_FAR_ENDED;
+    const int may_end = gni_must_end(s);
     size_t records = 0, indices = 0, triangles = 0;
     const size_t most =
         UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
@@ -77,7 +77,7 @@ static int lay_out(draft *d, arena *a)
     d->objects = cut(a, s->object_count, sizeof *d->objects);
     d->records = cut(a, records * s->light_count, sizeof *d->records);
     d->casting = cut(a, triangles, 1);
-    if (are_ended) {
+    if (may_end) {
         d->group = cut(a, triangles, 1);
         d->end_of = cut(a, triangles, 1);
         d->region = cut(a, 1, sizeof *d->region);
@@ -157,16 +157,18 @@ static void light_in_view(const draft *d, const gn_light *light, double out[4])
     out[3] = is_sun ? 0.0 : 1.0;
 }
 
-static unsigned parts_for(gn_method method, const gn_object *object)
+static unsigned parts_for(gn_method method, const gn_object *object, gn_far far_end)
 {
     const gn_mesh_info *info = &object->mesh->info;
+    unsigned parts = GN_SIDES;
 
-    if (method == GN_METHOD_ZFAIL)
-        return GN_SIDES | GN_LIGHT_CAP | GN_DARK_CAP;
-    /* before what is seen there is no light cap where the caster itself is seen instead (DESIGN.md, decision 4) */
-    if ((object->flags & GN_DRAWN) && info->solid_part_count == info->part_count)
-        return GN_SIDES;
-    return GN_SIDES | GN_LIGHT_CAP;
+    /* z-pass: the eye may look into a volume from behind its end (DESIGN.md, decision 6) */
+    if (method == GN_METHOD_ZFAIL || far_end == GN_FAR_ENDED)
+        parts |= GN_DARK_CAP;
+    /* before what is seen there is no light cap where the caster itself is seen instead (decision 4) */
+    if (method == GN_METHOD_ZFAIL || !(object->flags & GN_DRAWN) || info->solid_part_count != info->part_count)
+        parts |= GN_LIGHT_CAP;
+    return parts;
 }
 
 /* Planes go the other way: a plane p of view space is p m in object space, row times matrix. */
@@ -183,13 +185,12 @@ static void plane_before(double out[4], const double plane[4], const double m[16
 /* One closed volume: the casting triangles of one end, a plane (view space) or a reach; a record for each chunk that
  * has any of it. Everything is extruded in view space: no inverse of the model matrix is needed. */
 static void add_records(draft *d, uint32_t light, uint32_t object_index, const int8_t *casting,
-                        const double light_view[4], const double end_plane[4], double reach)
+                        const double light_view[4], gn_far far_end, const double end_plane[4], double reach)
 {
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
-    const unsigned parts = parts_for(d->lights[light].method, object);
-    const int at_infinity = reach == 0.0 && end_plane[0] == 0.0 && end_plane[1] == 0.0 && end_plane[2] == 0.0;
-    const int converging = at_infinity && light_view[3] == 0.0;
+    const unsigned parts = parts_for(d->lights[light].method, object, far_end);
+    const int converging = far_end != GN_FAR_ENDED && light_view[3] == 0.0;
     double matrix[16], extrusion[16], far_matrix[16], plane_world[4] = {0, 0, 0, 0};
 
     if (reach > 0.0) {
@@ -221,6 +222,7 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
         r->light_cap_count = stream.light_cap;
         r->turned_cap_count = stream.turned_cap;
         r->mirrored = d->objects[object_index].mirrored;
+        r->far_end = far_end;
         memcpy(r->end_plane, plane_world, sizeof r->end_plane);
         r->end_reach = reach;
         gn_mat4_to_float(r->far_matrix, far_matrix);
@@ -229,25 +231,64 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
     }
 }
 
-/* Nothing ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not stop
- * the frame; elsewhere depth clamp would have done, and the frame is refused. */
-static gn_result refuse_ends(draft *d, uint32_t light, uint32_t object)
+static void add_endless(draft *d, uint32_t light, uint32_t object_index, const double light_view[4], gn_far far_end)
+{
+    static const double infinity[4] = {0, 0, 0, 1};
+
+    add_records(d, light, object_index, d->casting, light_view, far_end, infinity, 0.0);
+}
+
+/* Whether a plane of the camera cuts the object's box. Its surfaces are clipped there; drawn under depth clamp they would
+ * not be, and their depths would be others by more than a step: its light cap would shadow it. */
+static int is_cut(const draft *d, uint32_t object_index)
 {
     const gn_camera *camera = &d->scene->camera;
-    const char *const clamp = gni_why_not(&d->scene->target, GN_CAN_DEPTH_CLAMP);
+    const gn_object *object = &d->scene->objects[object_index];
+    const gn_mesh_info *info = &object->mesh->info;
+    double nearest = INFINITY, farthest = -INFINITY, model_view[16];
+
+    gni_model_view(model_view, camera, object->model, info->centre);
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] = (double)(corner >> axis & 1 ? info->box_max[axis] : info->box_min[axis]);
+        gn_mat4_transform(p, model_view, p, 1.0);
+        nearest = fmin(nearest, -p[2]);
+        farthest = fmax(farthest, -p[2]);
+    }
+    return (nearest <= camera->znear * (1.0 + 1e-6) && farthest >= camera->znear * (1.0 - 1e-6)) ||
+           (camera->finite_far && nearest <= camera->zfar * (1.0 + 1e-6) && farthest >= camera->zfar * (1.0 - 1e-6));
+}
+
+/* Nothing ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not stop
+ * the frame; elsewhere depth clamp does where it can, or the frame is refused. */
+static gn_result clamp_or_refuse(draft *d, uint32_t light, uint32_t object, const double light_view[4])
+{
+    const gn_camera *camera = &d->scene->camera;
+    const gn_target *target = &d->scene->target;
+    const int clamps = gn_target_can(target, GN_CAN_DEPTH_CLAMP);
 
     if (camera->orthographic) {
         d->plan->endless_casters++;
         return GN_OK;
     }
+    if (clamps && !is_cut(d, object)) {
+        add_endless(d, light, object, light_view, GN_FAR_CLAMPED);
+        return GN_OK;
+    }
     if (camera->finite_far)
-        return gn_fail(d->context, GN_E_DEVICE,
-                       "light %lu is too near to object %lu: its volume cannot end before the far plane at %g, and "
-                       "depth-clamp %s",
-                       (unsigned long)light, (unsigned long)object, camera->zfar, clamp);
-    return gn_fail(d->context, GN_E_DEVICE,
-                   "light %lu is too near to object %lu: its volume has no end; w0 %s and depth-clamp %s",
-                   (unsigned long)light, (unsigned long)object, gni_why_not(&d->scene->target, GN_CAN_W0), clamp);
+        return gn_fail(
+            d->context, GN_E_DEVICE,
+            "object %lu, light %lu: no end of the volume lies before the far plane at %g, and depth-clamp %s",
+            (unsigned long)object, (unsigned long)light, camera->zfar,
+            clamps ? "is no help where a plane of the camera cuts the object"
+                   : gni_why_not(target, GN_CAN_DEPTH_CLAMP));
+    return gn_fail(
+        d->context, GN_E_DEVICE,
+        "object %lu, light %lu: the light touches the object, its volume has no end; w0 %s, and depth-clamp %s",
+        (unsigned long)object, (unsigned long)light, gni_why_not(target, GN_CAN_W0),
+        clamps ? "is no help where a plane of the camera cuts the object" : gni_why_not(target, GN_CAN_DEPTH_CLAMP));
 }
 
 /* A caster's volumes, one for each end. */
@@ -259,7 +300,7 @@ static gn_result add_ended(draft *d, uint32_t light, uint32_t object_index, cons
 
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
     if (!gni_choose_ends(d->ends, d->region, mesh, model_view, light_view, d->casting, d->end_of))
-        return refuse_ends(d, light, object_index);
+        return clamp_or_refuse(d, light, object_index, light_view);
     for (uint32_t p = 0; p < d->ends->count; p++) {
         int any = 0;
 
@@ -268,16 +309,17 @@ static gn_result add_ended(draft *d, uint32_t light, uint32_t object_index, cons
             any |= d->group[t];
         }
         if (any)
-            add_records(d, light, object_index, d->group, light_view, d->ends->planes[p], d->ends->reach);
+            add_records(d, light, object_index, d->group, light_view, GN_FAR_ENDED, d->ends->planes[p], d->ends->reach);
     }
     return GN_OK;
 }
 
 static gn_result add_volumes(draft *d, uint32_t light)
 {
-    static const double infinity[4] = {0, 0, 0, 1};
+    const gn_stencil_layout *layout = &d->plan->stencil;
     gn_plan_light *about = &d->lights[light];
     gn_result result = GN_OK;
+    uint64_t casting = 0;
     double light_view[4];
 
     light_in_view(d, &d->scene->lights[light], light_view);
@@ -288,15 +330,18 @@ static gn_result add_volumes(draft *d, uint32_t light)
         if (!(object->flags & GN_CASTS))
             continue;
         gn_object_casting(object, &d->scene->lights[light], d->casting);
-        if (d->plan->far_ends == GN_FAR_ENDED)
+        for (uint32_t t = 0; t < object->mesh->info.triangle_count; t++)
+            casting += d->casting[t] != 0;
+        if (gni_must_end(d->scene))
             result = add_ended(d, light, i, light_view);
         else
-            add_records(d, light, i, d->casting, light_view, infinity, 0.0);
+            add_endless(d, light, i, light_view, GN_FAR_INFINITE);
         if (d->plan->record_count > before) {
             about->casters++;
             about->cases[about->method == GN_METHOD_ZPASS ? 0 : 2]++;
         }
     }
+    about->may_overflow = !layout->wrap && casting > (uint64_t)layout->high;
     return result;
 }
 
@@ -425,10 +470,9 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     d.plan->objects = d.objects;
     d.plan->object_count = scene->object_count;
     d.plan->stencil = d.choice.stencil;
-    d.plan->far_ends = d.choice.far_ends;
     d.plan->depth_range[0] = scene->camera.znear;
     d.plan->depth_range[1] = scene->camera.finite_far ? scene->camera.zfar : INFINITY;
-    if (d.plan->far_ends == GN_FAR_ENDED)
+    if (gni_must_end(scene))
         gni_receiver_region(d.region, scene);
     if (scene->camera.orthographic)
         find_range(&d);

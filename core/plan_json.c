@@ -42,6 +42,7 @@ static void put_number(writer *w, double value) /* JSON has no infinity */
 static void put_record(writer *w, const gn_record *r)
 {
     static const char *const names[] = {"sides", "light cap", "dark cap"};
+    static const char *const far_ends[] = {"infinite", "clamped", "ended"};
     const char *separator = "";
 
     put(w, "\n  {\"light\": %lu, \"object\": %lu, \"chunk\": %lu, \"parts\": [", (unsigned long)r->light,
@@ -56,7 +57,8 @@ static void put_record(writer *w, const gn_record *r)
         "%lu},",
         (unsigned long)r->first_index, (unsigned long)r->side_count, (unsigned long)r->dark_cap_count,
         (unsigned long)r->light_cap_count, (unsigned long)r->turned_cap_count);
-    put(w, " \"mirrored\": %s, \"end_plane\": [", r->mirrored ? "true" : "false");
+    put(w, " \"mirrored\": %s, \"far_end\": \"%s\", \"end_plane\": [", r->mirrored ? "true" : "false",
+        far_ends[r->far_end]);
     for (int i = 0; i < 4; i++) {
         put(w, "%s", i ? ", " : "");
         put_number(w, r->end_plane[i]);
@@ -86,17 +88,14 @@ static void put_step(writer *w, const gn_step *s)
 
 size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
 {
-    static const char *const far_ends[] = {"infinite", "clamped", "ended"};
     writer w = {text, capacity, 0};
 
     put(&w, "{\"target\": {\"width\": %lu, \"height\": %lu, \"depth_bits\": %d, \"stencil_bits\": %d},\n",
         (unsigned long)plan->target.width, (unsigned long)plan->target.height, plan->target.depth_bits,
         plan->target.stencil_bits);
-    put(&w,
-        " \"stencil\": {\"two_sided\": %s, \"wrap\": %s, \"reference\": %d, \"range\": [%d, %d]}, \"far_ends\": "
-        "\"%s\",\n",
+    put(&w, " \"stencil\": {\"two_sided\": %s, \"wrap\": %s, \"reference\": %d, \"range\": [%d, %d]},\n",
         plan->stencil.two_sided ? "true" : "false", plan->stencil.wrap ? "true" : "false", plan->stencil.reference,
-        plan->stencil.low, plan->stencil.high, far_ends[plan->far_ends]);
+        plan->stencil.low, plan->stencil.high);
     put(&w, " \"clear_depth\": ");
     put_number(&w, plan->clear_depth);
     put(&w, ", \"depth_range\": [");
@@ -110,9 +109,10 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
 
         put(&w,
             "%s\n  {\"method\": \"%s\", \"reason\": \"%s\", \"casters\": %lu, \"case1\": %lu, \"case2\": %lu, "
-            "\"case3\": %lu}",
+            "\"case3\": %lu, \"may_overflow\": %s}",
             i ? "," : "", gn_plan_method_name(plan, i), l->reason, (unsigned long)l->casters,
-            (unsigned long)l->cases[0], (unsigned long)l->cases[1], (unsigned long)l->cases[2]);
+            (unsigned long)l->cases[0], (unsigned long)l->cases[1], (unsigned long)l->cases[2],
+            l->may_overflow ? "true" : "false");
     }
     put(&w, "],\n \"steps\": [");
     for (uint32_t i = 0; i < plan->step_count; i++) {

@@ -13,7 +13,8 @@ GN_GL_PROC(glBindTexture, (GLenum target, GLuint texture), (target, texture))
 GN_GL_PROC(glBlendEquation, (GLenum mode), (mode))
 GN_GL_PROC(glBlendEquationSeparate, (GLenum rgb, GLenum alpha), (rgb, alpha))
 GN_GL_PROC(glBlendFunc, (GLenum sfactor, GLenum dfactor), (sfactor, dfactor))
-GN_GL_PROC(glBlendFuncSeparate, (GLenum source_rgb, GLenum destination_rgb, GLenum source_alpha, GLenum destination_alpha),
+GN_GL_PROC(glBlendFuncSeparate,
+           (GLenum source_rgb, GLenum destination_rgb, GLenum source_alpha, GLenum destination_alpha),
            (source_rgb, destination_rgb, source_alpha, destination_alpha))
 GN_GL_PROC(glBufferData, (GLenum target, GLsizeiptr size, const void *data, GLenum usage), (target, size, data, usage))
 GN_GL_PROC(glBufferSubData, (GLenum target, GLintptr offset, GLsizeiptr size, const void *data),
@@ -44,9 +45,11 @@ GN_GL_PROC(glDrawElements, (GLenum mode, GLsizei count, GLenum type, const void 
 GN_GL_PROC(glEnable, (GLenum cap), (cap))
 GN_GL_PROC(glEnableVertexAttribArray, (GLuint index), (index))
 GN_GL_PROC(glFinish, (void), ())
-GN_GL_PROC(glFramebufferRenderbuffer, (GLenum target, GLenum attachment, GLenum renderbuffer_target, GLuint renderbuffer),
+GN_GL_PROC(glFramebufferRenderbuffer,
+           (GLenum target, GLenum attachment, GLenum renderbuffer_target, GLuint renderbuffer),
            (target, attachment, renderbuffer_target, renderbuffer))
-GN_GL_PROC(glFramebufferTexture2D, (GLenum target, GLenum attachment, GLenum texture_target, GLuint texture, GLint level),
+GN_GL_PROC(glFramebufferTexture2D,
+           (GLenum target, GLenum attachment, GLenum texture_target, GLuint texture, GLint level),
            (target, attachment, texture_target, texture, level))
 GN_GL_PROC(glFrontFace, (GLenum mode), (mode))
 GN_GL_PROC(glGenBuffers, (GLsizei n, GLuint *buffers), (n, buffers))
@@ -57,7 +60,8 @@ GN_GL_PROC(glGenerateMipmap, (GLenum target), (target))
 GN_GL_FUNC(GLenum, glGetError, (void), ())
 GN_GL_PROC(glGetFloatv, (GLenum pname, GLfloat *data), (pname, data))
 GN_GL_PROC(glGetIntegerv, (GLenum pname, GLint *data), (pname, data))
-GN_GL_PROC(glGetProgramInfoLog, (GLuint program, GLsizei size, GLsizei *length, GLchar *log), (program, size, length, log))
+GN_GL_PROC(glGetProgramInfoLog, (GLuint program, GLsizei size, GLsizei *length, GLchar *log),
+           (program, size, length, log))
 GN_GL_PROC(glGetProgramiv, (GLuint program, GLenum pname, GLint *params), (program, pname, params))
 GN_GL_PROC(glGetShaderInfoLog, (GLuint shader, GLsizei size, GLsizei *length, GLchar *log), (shader, size, length, log))
 GN_GL_PROC(glGetShaderPrecisionFormat, (GLenum shader_type, GLenum precision_type, GLint *range, GLint *precision),
@@ -82,9 +86,11 @@ GN_GL_PROC(glStencilFuncSeparate, (GLenum face, GLenum func, GLint ref, GLuint m
 GN_GL_PROC(glStencilMask, (GLuint mask), (mask))
 GN_GL_PROC(glStencilMaskSeparate, (GLenum face, GLuint mask), (face, mask))
 GN_GL_PROC(glStencilOp, (GLenum sfail, GLenum dpfail, GLenum dppass), (sfail, dpfail, dppass))
-GN_GL_PROC(glStencilOpSeparate, (GLenum face, GLenum sfail, GLenum dpfail, GLenum dppass), (face, sfail, dpfail, dppass))
-GN_GL_PROC(glTexImage2D, (GLenum target, GLint level, GLint internal_format, GLsizei width, GLsizei height, GLint border,
-                          GLenum format, GLenum type, const void *pixels),
+GN_GL_PROC(glStencilOpSeparate, (GLenum face, GLenum sfail, GLenum dpfail, GLenum dppass),
+           (face, sfail, dpfail, dppass))
+GN_GL_PROC(glTexImage2D,
+           (GLenum target, GLint level, GLint internal_format, GLsizei width, GLsizei height, GLint border,
+            GLenum format, GLenum type, const void *pixels),
            (target, level, internal_format, width, height, border, format, type, pixels))
 GN_GL_PROC(glTexParameteri, (GLenum target, GLenum pname, GLint param), (target, pname, param))
 GN_GL_PROC(glUniform1f, (GLint location, GLfloat v0), (location, v0))
@@ -97,8 +103,8 @@ GN_GL_PROC(glUniformMatrix3fv, (GLint location, GLsizei count, GLboolean transpo
 GN_GL_PROC(glUniformMatrix4fv, (GLint location, GLsizei count, GLboolean transpose, const GLfloat *value),
            (location, count, transpose, value))
 GN_GL_PROC(glUseProgram, (GLuint program), (program))
-GN_GL_PROC(glVertexAttribPointer, (GLuint index, GLint size, GLenum type, GLboolean normalized, GLsizei stride,
-                                   const void *pointer),
+GN_GL_PROC(glVertexAttribPointer,
+           (GLuint index, GLint size, GLenum type, GLboolean normalized, GLsizei stride, const void *pointer),
            (index, size, type, normalized, stride, pointer))
 GN_GL_PROC(glViewport, (GLint x, GLint y, GLsizei width, GLsizei height), (x, y, width, height))
 

@@ -49,8 +49,15 @@ void gn_gles_draw_volumes(gn_gles *g, const gn_plan *plan, uint32_t first_record
                           const float color[4])
 {
     gni_begin_volumes(g, color);
-    for (uint32_t i = first_record; i < first_record + record_count && i < plan->record_count; i++)
+    for (uint32_t i = first_record; i < first_record + record_count && i < plan->record_count; i++) {
+        const int clamped = plan->records[i].far_end == GN_FAR_CLAMPED;
+
+        if (clamped)
+            g->gl.glEnable(GNI_DEPTH_CLAMP);
         for (int turned = 0; turned < 2; turned++)
             gni_draw_record(g, plan, &plan->records[i], turned);
+        if (clamped)
+            g->gl.glDisable(GNI_DEPTH_CLAMP);
+    }
     gni_end_volumes(g);
 }

@@ -49,7 +49,7 @@ static gni_state reset(const gn_stencil_layout *layout)
 typedef enum half { BOTH, RISING, FALLING } half;
 
 /* swapped: fronts count as backs, since the object is mirrored or the triangles are turned caps (not both). */
-static gni_state counting(const gn_plan *plan, int zfail, int swapped, half h)
+static gni_state counting(const gn_plan *plan, int zfail, int swapped, half h, gn_far far_end)
 {
     const gn_stencil_layout *layout = &plan->stencil;
     const GLenum up = layout->wrap ? GL_INCR_WRAP : GL_INCR, down = layout->wrap ? GL_DECR_WRAP : GL_DECR;
@@ -60,7 +60,7 @@ static gni_state counting(const gn_plan *plan, int zfail, int swapped, half h)
                    .stencil_func = GL_ALWAYS,
                    .stencil_reference = layout->reference,
                    .offset = 1,
-                   .clamp = plan->far_ends == GN_FAR_CLAMPED};
+                   .clamp = far_end == GN_FAR_CLAMPED};
 
     if (h == BOTH) {
         s.front = backs_rise ? fall : rise;
@@ -83,7 +83,9 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
             return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the mesh of object %lu was not uploaded",
                            (unsigned long)plan->records[i].object);
     g->plan = plan;
-    g->clamps = plan->far_ends == GN_FAR_CLAMPED;
+    g->clamps = 0;
+    for (uint32_t i = 0; i < plan->record_count; i++)
+        g->clamps |= plan->records[i].far_end == GN_FAR_CLAMPED;
     g->at = 0;
     if (plan->index_count) {
         g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
@@ -126,7 +128,7 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, int zfail, h
 
             if (turned && !r->turned_cap_count)
                 continue;
-            state = counting(g->plan, zfail, r->mirrored ^ turned, h);
+            state = counting(g->plan, zfail, r->mirrored ^ turned, h, r->far_end);
             gni_set_state(g, &state);
             gni_draw_record(g, g->plan, r, turned);
         }

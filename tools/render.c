@@ -229,6 +229,11 @@ static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE
     if (j->explain)
         for (uint32_t i = 0; i < s->plan->light_count; i++)
             printf("light %u: %s: %s\n", (unsigned)i, gn_plan_method_name(s->plan, i), s->plan->lights[i].reason);
+    for (uint32_t i = 0; i < s->plan->light_count; i++)
+        if (s->plan->lights[i].may_overflow)
+            say("light %u: more triangles cast than a stencil counts that does not wrap: deep shadows may be wrong "
+                "(%d)",
+                (unsigned)i, s->plan->stencil.high);
     if (s->plan->endless_casters)
         say("%u shadows are left out: the light is too close to too many large triangles for an orthographic camera",
             (unsigned)s->plan->endless_casters);

@@ -92,7 +92,6 @@ static void the_chain_goes_down_step_by_step(void **state)
     assert_int_equal(plan(), GN_OK);
     assert_string_equal(gn_plan_method_name(f.plan, 0), "zfail");
     assert_true(f.plan->stencil.two_sided && f.plan->stencil.wrap && f.plan->stencil.reference == 0);
-    assert_int_equal(f.plan->far_ends, GN_FAR_INFINITE);
 
     HIDE(GN_CAN_TWO_SIDED_STENCIL);
     assert_int_equal(plan(), GN_OK);
@@ -147,44 +146,92 @@ static void far_vertices_are_inside(void)
     }
 }
 
+static void all_end(gn_far far_end)
+{
+    for (uint32_t r = 0; r < f.plan->record_count; r++)
+        assert_int_equal(f.plan->records[r].far_end, far_end);
+}
+
+/* Where w = 0 would be clipped volumes end; a light all but on a face leaves no end, and depth
+ * clamp does. */
 static void far_ends_go_down_too(void **state)
 {
     (void)state;
+    assert_int_equal(plan(), GN_OK);
+    all_end(GN_FAR_INFINITE);
     HIDE(GN_CAN_W0);
     assert_int_equal(plan(), GN_OK);
-    assert_int_equal(f.plan->far_ends, GN_FAR_CLAMPED);
-    says("depth is clamped, since w0 is hidden");
-    HIDE(GN_CAN_DEPTH_CLAMP);
-    assert_int_equal(plan(), GN_OK);
-    assert_int_equal(f.plan->far_ends, GN_FAR_ENDED);
-    says("volumes end on planes, since w0 is hidden and depth-clamp is hidden");
+    all_end(GN_FAR_ENDED);
+    says("volumes end behind what is seen, since w0 is hidden");
     far_vertices_are_inside();
+
+    f.scene.light_count = 1;
+    f.scene.object_count = 1;
+    f.lights[0].position[0] = f.lights[0].position[2] = 0.1;
+    f.lights[0].position[1] = 2 + 1e-10;
+    assert_int_equal(plan(), GN_OK);
+    all_end(GN_FAR_CLAMPED);
+    HIDE(GN_CAN_DEPTH_CLAMP);
+    assert_int_equal(plan(), GN_E_DEVICE);
+    assert_non_null(strstr(gn_message(context), "object 0, light 0: the light touches the object"));
 }
 
-/* A host's own far plane: clamped; without clamping ended before it; or refused, when the light is beside its caster. */
+/* A host's own far plane: volumes end before it; or are clamped, if no plane cuts the caster; or are refused. */
 static void a_finite_far_plane_is_kept_or_refused(void **state)
 {
     (void)state;
     f.scene.camera.finite_far = 1;
     assert_int_equal(plan(), GN_OK);
-    assert_int_equal(f.plan->far_ends, GN_FAR_CLAMPED);
-    says("depth is clamped, since the camera's far plane is finite");
+    all_end(GN_FAR_ENDED);
+    says("volumes end behind what is seen, since the camera's far plane is finite");
     assert_true(f.plan->depth_range[1] == 40 && f.plan->clear_depth == 1.0);
-    HIDE(GN_CAN_DEPTH_CLAMP);
-    assert_int_equal(plan(), GN_OK);
-    assert_int_equal(f.plan->far_ends, GN_FAR_ENDED);
     far_vertices_are_inside();
 
     f.lights[0].position[0] = 1.001; /* beside the box: its shadow runs to the horizon */
     f.lights[0].position[1] = 1.999;
     f.lights[0].position[2] = 0;
-    assert_int_equal(plan(), GN_E_DEVICE);
-    assert_non_null(strstr(gn_message(context), "light 0 is too near to object 0"));
-    assert_non_null(strstr(gn_message(context), "far plane at 40"));
-    f.scene.target.hidden = 0;
     assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->records[0].far_end, GN_FAR_CLAMPED);
+    HIDE(GN_CAN_DEPTH_CLAMP);
+    assert_int_equal(plan(), GN_E_DEVICE);
+    assert_non_null(
+        strstr(gn_message(context), "object 0, light 0: no end of the volume lies before the far plane at 40"));
+    assert_non_null(strstr(gn_message(context), "depth-clamp is hidden"));
+    f.scene.target.hidden = 0;
+    f.scene.camera.zfar = 8; /* in the middle of the box */
+    assert_int_equal(plan(), GN_E_DEVICE);
+    assert_non_null(strstr(gn_message(context), "is no help where a plane of the camera cuts the object"));
     f.scene.camera.zfar = 0;
     assert_int_equal(plan(), GN_E_ARG);
+}
+
+/* Where counting stops at the ends, more casting triangles than it holds are a warning. */
+static void overflow_is_warned_of(void **state)
+{
+    (void)state;
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->lights[0].may_overflow, 0);
+    HIDE(GN_CAN_STENCIL_WRAP);
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->lights[0].may_overflow, 0); /* twelve triangles or less */
+    {
+        static test_mesh m;
+        gn_mesh_desc desc;
+        gn_mesh *torus;
+
+        m.vertex_count = m.triangle_count = 0;
+        test_add_torus(&m, 1.0f, 0.3f, 20, 20);
+        desc = test_desc(&m);
+        assert_int_equal(gn_mesh_create(context, &desc, &torus), GN_OK);
+        f.objects[0].mesh = torus;
+        assert_int_equal(plan(), GN_OK);
+        assert_int_equal(f.plan->lights[0].may_overflow, 1);
+        f.scene.target.hidden = 0;
+        assert_int_equal(plan(), GN_OK);
+        assert_int_equal(f.plan->lights[0].may_overflow, 0);
+        f.objects[0].mesh = f.meshes[0];
+        gn_mesh_destroy(torus);
+    }
 }
 
 int main(void)
@@ -195,6 +242,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(the_chain_goes_down_step_by_step, set_up, tear_down),
         cmocka_unit_test_setup_teardown(one_sided_may_be_asked_for, set_up, tear_down),
         cmocka_unit_test_setup_teardown(far_ends_go_down_too, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(overflow_is_warned_of, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_finite_far_plane_is_kept_or_refused, set_up, tear_down),
     };
 
