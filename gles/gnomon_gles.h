@@ -15,8 +15,9 @@
  *
  * GL state. Between gn_gles_begin() and the end of the walk the host may change anything but the bound framebuffer.
  *
- *     on entry   the framebuffer that the plan's target describes is bound; no GL error is pending; the depth range is
- *                0 to 1, and sample coverage and sample alpha to coverage are off, as in a new context. Any other state
+ *     on entry   the framebuffer that the plan's target describes is bound, to draw and to read; no GL error is pending;
+ *                the depth range is 0 to 1, and depth clamp, sample coverage and sample alpha to coverage are off, as in
+ *                a new context. Any other state
  *     clear      the first gn_gles_next() clears colour (to the host's clear colour), depth and stencil, unmasked
  *     AMBIENT    depth test LESS, depth written; stencil test and blending off
  *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL to the plan's
@@ -73,13 +74,16 @@ const gn_gl *gn_gles_functions(const gn_gles *gl);
 
 /* Finds out what the bound framebuffer is and what can be done there: bits, what is advertised, and, by drawing and
  * reading back, what is proven. Once for each target: the contents of the framebuffer are lost, and the GL waits. GL state
- * is as before; no GL error may be pending, a query of time may not run, and pixels must not be packed into a buffer.
+ * is as before; on entry the framebuffer is bound to draw and to read, depth clamp is off, no GL error is pending, no query
+ * of time runs, and pixels are not packed into a buffer.
  *
  * width, height  of the framebuffer, which the GL does not tell
  * saved          a text of gn_gles_save_target(): if it is of this driver and such a target, nothing is drawn. Anything
  *                else, NULL too, is passed over
- * Tells the port's log of each capability that is advertised and fails. Multisampled framebuffer objects, which cannot
- * be read, are proven on a stand-in with one sample. Returns GN_OK; GN_E_ARG; GN_E_DEVICE when the framebuffer is not
+ * Tells the port's log of each capability that is found, by drawing, to be advertised and to fail. Framebuffers that cannot
+ * be read as plain levels (multisampled objects, floats, integers, sRGB), and those under 16 pixels wide or high, are
+ * proven on a framebuffer object of 8 bits a channel, 24 of depth and 8 of stencil; what blending does to levels that
+ * are not plain counts as not advertised. Returns GN_OK; GN_E_ARG; GN_E_DEVICE when the framebuffer is not
  * complete. */
 gn_result gn_gles_describe_target(gn_gles *gl, uint32_t width, uint32_t height, const char *saved, gn_target *target);
 
@@ -104,7 +108,8 @@ gn_result gn_gles_begin(gn_gles *gl, const gn_plan *plan);
 int gn_gles_next(gn_gles *gl, gn_step *step);
 
 /* Draws the volumes of some records of the plan last begun in one colour, to look at or to count. Depth, stencil,
- * blending, masks and culling are the host's; program, buffers and attribute arrays as on exit above. */
+ * blending, masks and culling are the host's; depth clamp is on where a record needs it and off afterwards; program,
+ * buffers and attribute arrays as on exit above. */
 void gn_gles_draw_volumes(gn_gles *gl, const gn_plan *plan, uint32_t first_record, uint32_t record_count,
                           const float color[4]);
 

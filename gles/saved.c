@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEAD 1024
+#define HEAD  1024
+#define SMALL 16 /* pixels: what is smaller is proven in another way (proofs/proofs.c) */
 
 static const char *text_of(const gn_gles *g, GLenum name)
 {
@@ -19,11 +20,16 @@ static const char *text_of(const gn_gles *g, GLenum name)
 /* What the text is true of. 0 when the driver's strings are too long. */
 static int head_of(const gn_gles *g, const gn_target *t, char head[HEAD])
 {
-    const int length =
-        snprintf(head, HEAD, "gnomon %s\n%s\n%s\n%s\nbits %d %d %d %d depth %d stencil %d samples %d\n", gn_version(),
-                 text_of(g, GL_VENDOR), text_of(g, GL_RENDERER), text_of(g, GL_VERSION), t->red_bits, t->green_bits,
-                 t->blue_bits, t->alpha_bits, t->depth_bits, t->stencil_bits, t->samples);
+    GLint bound = 0;
+    int length;
 
+    g->gl.glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
+    length = snprintf(head, HEAD,
+                      "gnomon %s\n%s\n%s\n%s\n"
+                      "bits %d %d %d %d depth %d stencil %d samples %d object %d small %d hidden %lx\n",
+                      gn_version(), text_of(g, GL_VENDOR), text_of(g, GL_RENDERER), text_of(g, GL_VERSION), t->red_bits,
+                      t->green_bits, t->blue_bits, t->alpha_bits, t->depth_bits, t->stencil_bits, t->samples,
+                      bound != 0, t->width < SMALL || t->height < SMALL, (unsigned long)t->hidden);
     return length > 0 && length < HEAD;
 }
 

@@ -205,7 +205,9 @@ static int samples_depth(gni_proofs *p)
         ok = is_complete(p);
     }
     gni_fresh_state(p);
-    if (ok && gni_use_shader(p, "sample", "", gni_shader_sample_frag)) {
+    if (ok && !gni_use_shader(p, "sample", "", gni_shader_sample_frag))
+        ok = gni_failed(p, "a shader that samples it is refused");
+    if (ok) {
         gl->glBindTexture(GL_TEXTURE_2D, depth);
         gl->glUniform1i(gni_uniform(p, "u_texture"), 0);
         gni_draw_rectangle(p, 0, 0, SIZE, SIZE, 0.0f, 0, gni_white);

@@ -28,7 +28,7 @@ static int read_trial(gni_proofs *p)
     const uint8_t *front = p->pixels, *back = p->pixels + 4 * (size_t)(p->width - 1);
 
     p->target->mediump_bits = p->target->red_bits >= 8 ? front[0] : 0;
-    p->highp_bits = p->target->green_bits >= 8 ? front[1] : 16;
+    p->highp_bits = front[1];
     p->front_is_front = front[2] == 255;
     p->back_is_back = p->width <= 8 || back[2] == 0;
     return 1;

@@ -162,10 +162,17 @@ static void clear_target(gni_proofs *p)
                 (gni_proofs_can(p, GN_CAN_STENCIL) ? GL_STENCIL_BUFFER_BIT : 0u));
 }
 
+/* Cells in a row of the target, or in all: no more than there are proofs. */
+static uint32_t cells_in(uint32_t pixels)
+{
+    const uint32_t n = pixels / CELL;
+
+    return n == 0 ? 1 : n < CELLS ? n : CELLS;
+}
+
 static void place_cell(gni_proofs *p, uint32_t n)
 {
-    const uint32_t columns = p->target->width / CELL ? p->target->width / CELL : 1;
-    const uint32_t x = n % columns * CELL, y = n / columns * CELL;
+    const uint32_t columns = cells_in(p->target->width), x = n % columns * CELL, y = n / columns * CELL;
 
     p->x = (GLint)x;
     p->y = (GLint)y;
@@ -176,7 +183,7 @@ static void place_cell(gni_proofs *p, uint32_t n)
 static void prove_in_cells(gni_proofs *p)
 {
     const gn_target *t = p->target;
-    const uint32_t held = (t->width / CELL ? t->width / CELL : 1) * (t->height / CELL ? t->height / CELL : 1);
+    const uint32_t held = cells_in(t->width) * cells_in(t->height);
     const int batch = held < CELLS ? (int)held : CELLS;
 
     for (int first = 0; first < CELLS; first += batch) {
@@ -215,8 +222,8 @@ static void prove_alone(gni_proofs *p, const gni_lone_proof *list, int count, GL
     }
 }
 
-/* A multisampled framebuffer object cannot be read in OpenGL ES 2.0: what it can do is proven on one of a single sample
- * with the same bits of depth and stencil. */
+/* Framebuffers that cannot be read as plain levels of red, green and blue (multisampled objects, floats, integers, sRGB),
+ * and those smaller than a cell, are proven on one of 8 bits a channel, 24 of depth and 8 of stencil. */
 typedef struct stand_in {
     GLuint framebuffer, texture, depth;
 } stand_in;
@@ -251,11 +258,17 @@ static void drop_stand_in(gni_proofs *p, const stand_in *s)
     p->gl->glDeleteRenderbuffers(1, &s->depth);
 }
 
-static int can_be_read(gni_proofs *p)
+/* Whether colours come back as they are written, at both ends and in the middle. */
+static int is_plain(gni_proofs *p)
 {
+    uint8_t *pixel = p->pixels;
+
     take_errors(p->gl);
-    p->gl->glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, p->pixels);
-    return p->gl->glGetError() == GL_NO_ERROR;
+    gni_fresh_state(p);
+    p->gl->glClearColor(1.0f, 0.5f, 0.0f, 1.0f);
+    p->gl->glClear(GL_COLOR_BUFFER_BIT);
+    p->gl->glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, pixel);
+    return p->gl->glGetError() == GL_NO_ERROR && pixel[0] == 255 && pixel[1] > 110 && pixel[1] < 145 && pixel[2] == 0;
 }
 
 static void refuse_cells(gni_proofs *p)
@@ -281,14 +294,19 @@ static void warn(const gni_proofs *p)
         }
 }
 
+/* What blending does depends on the levels of the colour buffer. */
+#define PLAIN_LEVELS                                                                                                   \
+    (1u << GN_CAN_ALPHA | 1u << GN_CAN_BLEND_SUBTRACT | 1u << GN_CAN_BLEND_MINMAX | 1u << GN_CAN_BLEND_ROUNDING)
+
 void gni_prove(gn_gles *g, gn_target *target)
 {
     gn_target seen = *target; /* what cells are drawn into */
-    stand_in replacement = {0, 0, 0};
+    const stand_in none = {0, 0, 0};
+    stand_in replacement = none;
     GLuint drawn_into;
     GLint bound = 0;
     gni_proofs p;
-    int ok = 1;
+    int ok = 1, plain;
 
     memset(&p, 0, sizeof p);
     p.g = g;
@@ -303,8 +321,19 @@ void gni_prove(gn_gles *g, gn_target *target)
     g->gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     g->gl.glActiveTexture(GL_TEXTURE0);
     g->gl.glGetIntegerv(GL_FRAMEBUFFER_BINDING, &bound);
-    if (target->samples > 0 && !can_be_read(&p))
+    plain = is_plain(&p);
+    if (!plain || target->width < CELL || target->height < CELL)
         ok = make_stand_in(&p, &replacement, &seen);
+    if (!ok && plain) { /* it must do as it is, small as it is */
+        drop_stand_in(&p, &replacement);
+        replacement = none;
+        seen = *target;
+        ok = 1;
+        g->gl.glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)bound);
+    }
+    if (!plain && target->samples == 0) /* its levels are not those of the stand-in */
+        target->advertised = seen.advertised &= ~PLAIN_LEVELS;
+    p.offered = target->advertised & ~target->hidden;
     if (ok) {
         prove_in_cells(&p);
         place_cell(&p, 0);

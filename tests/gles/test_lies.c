@@ -19,16 +19,18 @@ static int lies(const char *name)
     return strcmp(lie, name) == 0;
 }
 
-static GLenum dropped_wrap(GLenum operation, int two_sided)
+static GLenum dropped_wrap(GLenum operation, int two_sided, int fails)
 {
-    if (lies("wrap is dropped") || (two_sided && lies("wrap is dropped on two sides")))
+    if (lies("wrap is dropped") || (two_sided && lies("wrap is dropped on two sides")) ||
+        (fails && lies("wrap is dropped by failing depth")) ||
+        (fails && two_sided && lies("wrap is dropped by failing depth on two sides")))
         return operation == GL_INCR_WRAP ? GL_INCR : operation == GL_DECR_WRAP ? GL_DECR : operation;
     return operation;
 }
 
 static void GL_APIENTRY stencil_op(GLenum fail, GLenum depth_fail, GLenum pass)
 {
-    real.glStencilOp(dropped_wrap(fail, 0), dropped_wrap(depth_fail, 0), dropped_wrap(pass, 0));
+    real.glStencilOp(dropped_wrap(fail, 0, 0), dropped_wrap(depth_fail, 0, 1), dropped_wrap(pass, 0, 0));
 }
 
 static void GL_APIENTRY stencil_op_separate(GLenum face, GLenum fail, GLenum depth_fail, GLenum pass)
@@ -38,7 +40,7 @@ static void GL_APIENTRY stencil_op_separate(GLenum face, GLenum fail, GLenum dep
             real.glStencilOp(fail, depth_fail, pass);
         return;
     }
-    real.glStencilOpSeparate(face, dropped_wrap(fail, 1), dropped_wrap(depth_fail, 1), dropped_wrap(pass, 1));
+    real.glStencilOpSeparate(face, dropped_wrap(fail, 1, 0), dropped_wrap(depth_fail, 1, 1), dropped_wrap(pass, 1, 0));
 }
 
 static void GL_APIENTRY enable(GLenum name)
@@ -78,6 +80,8 @@ static void GL_APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar
 
     if (lies("w = 0 is clipped"))
         from = "void main()", to = "void told_main()";
+    else if (lies("sampling does not compile"))
+        from = "texture2D(u_texture, vec2", to = "texture9D(u_texture, vec2";
     else if (lies("facing is inverted"))
         from = "gl_FrontFacing", to = "!gl_FrontFacing";
     else if (lies("highp is mediump") && strstr(parts[count - 1], "u_high_ones"))
@@ -240,6 +244,8 @@ static const struct {
 } told[] = {
     {"wrap is dropped", GN_CAN_STENCIL_WRAP, NULL, 0, NULL, 0},
     {"wrap is dropped on two sides", GN_CAN_TWO_SIDED_STENCIL, NULL, 0, NULL, 0},
+    {"wrap is dropped by failing depth", GN_CAN_STENCIL_WRAP, NULL, 0, NULL, 0},
+    {"wrap is dropped by failing depth on two sides", GN_CAN_TWO_SIDED_STENCIL, NULL, 0, NULL, 0},
     {"stencil is null", GN_CAN_STENCIL, NULL, 0, "needs stencil, which fails its proof", 0},
     {"depth is null", GN_CAN_DEPTH, NULL, 0, "needs depth, which fails its proof", 0},
     {"back state is ignored", GN_CAN_TWO_SIDED_STENCIL, NULL, 0, NULL, 0},
@@ -264,6 +270,7 @@ static const struct {
     {"packed is incomplete", GN_CAN_PACKED_DEPTH_STENCIL, NULL, 0, NULL, 0},
     {"depth is not shared", GN_CAN_SHARED_DEPTH, NULL, 0, NULL, 0},
     {"depth textures stay empty", GN_CAN_DEPTH_TEXTURE, NULL, 0, NULL, 0},
+    {"sampling does not compile", GN_CAN_DEPTH_TEXTURE, NULL, 0, NULL, 0},
     {"queries never end", GN_CAN_TIMER_QUERY, NULL, 0, NULL, 0},
     {"discard takes colour too", GN_CAN_DISCARD, NULL, 0, NULL, 0},
 };

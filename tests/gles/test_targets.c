@@ -181,6 +181,36 @@ static void targets_may_be_tiny(void **state)
     }
 }
 
+/* Floats and sRGB cannot be read as levels: another framebuffer is proven, and nothing said of their blending. */
+static void odd_colors_are_proven_by_another(void **state)
+{
+    static const GLenum formats[] = {0x881A /* RGBA16F */, 0x8C43 /* SRGB8_ALPHA8 */, 0x8229 /* R8 */};
+
+    (void)state;
+    for (size_t i = 0; i < sizeof formats / sizeof formats[0]; i++) {
+        gn_target t;
+
+        bind_object(formats[i], PACKED, 64, 0);
+        t = describe(64);
+        assert_int_equal(t.proven & STENCILS, STENCILS);
+        assert_true(t.proven & BIT(GN_CAN_DEPTH) && t.proven & BIT(GN_CAN_W0));
+        assert_int_equal(t.advertised & (BIT(GN_CAN_ALPHA) | BIT(GN_CAN_BLEND_ROUNDING)), 0);
+        assert_int_equal(t.proven, t.advertised);
+        assert_true(t.mediump_bits == 10 || t.mediump_bits == 23);
+        assert_string_equal(warnings, "");
+    }
+}
+
+/* The sizes are only told: none may be too large. */
+static void targets_may_be_huge(void **state)
+{
+    gn_target t;
+
+    (void)state;
+    assert_int_equal(gn_gles_describe_target(gles, 1u << 20, 1u << 20, NULL, &t), GN_OK);
+    assert_int_equal(gn_gles_describe_target(gles, UINT32_MAX, UINT32_MAX, NULL, &t), GN_OK);
+}
+
 /* A multisampled framebuffer object cannot be read, and is proven by one that stands in for it. */
 static void multisampled_objects_are_proven_by_another(void **state)
 {
@@ -308,6 +338,8 @@ int main(void)
     const struct CMUnitTest egl[] = {
         cmocka_unit_test_setup_teardown(framebuffer_objects_are_targets, open_egl, close_it),
         cmocka_unit_test_setup_teardown(targets_may_be_tiny, open_egl, close_it),
+        cmocka_unit_test_setup_teardown(odd_colors_are_proven_by_another, open_egl, close_it),
+        cmocka_unit_test_setup_teardown(targets_may_be_huge, open_egl, close_it),
         cmocka_unit_test_setup_teardown(multisampled_objects_are_proven_by_another, open_egl, close_it),
         cmocka_unit_test_setup_teardown(an_incomplete_target_is_refused, open_egl, close_it),
         cmocka_unit_test_setup_teardown(what_was_proven_is_given_back, open_egl, close_it),
