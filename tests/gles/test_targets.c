@@ -314,6 +314,26 @@ static void hiding_and_saving_go_together(void **state)
     close_it(NULL);
 }
 
+/* What could not be tried for want of something hidden is tried once that is there again, on a target without it too. */
+static void what_was_not_tried_is_not_kept(void **state)
+{
+    gn_target t;
+    char text[4096];
+
+    (void)state;
+    assert_int_equal(open_on("egl", "stencil"), 0);
+    bind_object(RGBA8, GL_DEPTH_COMPONENT16, 64, 0);
+    t = describe(64);
+    assert_true(!(t.proven & BIT(GN_CAN_PACKED_DEPTH_STENCIL)));
+    gn_gles_save_target(gles, &t, text, sizeof text);
+    close_it(NULL);
+    assert_int_equal(open_on("egl", NULL), 0);
+    bind_object(RGBA8, GL_DEPTH_COMPONENT16, 64, 0);
+    assert_int_equal(gn_gles_describe_target(gles, 64, 64, text, &t), GN_OK);
+    assert_true(t.proven & BIT(GN_CAN_PACKED_DEPTH_STENCIL));
+    close_it(NULL);
+}
+
 static void names_that_are_none_are_refused(void **state)
 {
     gn_context *other;
@@ -344,6 +364,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(an_incomplete_target_is_refused, open_egl, close_it),
         cmocka_unit_test_setup_teardown(what_was_proven_is_given_back, open_egl, close_it),
         cmocka_unit_test(hiding_and_saving_go_together),
+        cmocka_unit_test(what_was_not_tried_is_not_kept),
         cmocka_unit_test_setup_teardown(names_that_are_none_are_refused, open_egl, close_it),
     };
     const struct CMUnitTest osmesa[] = {
