@@ -1,8 +1,10 @@
 /* choose.c - which method a frame gets, and which way of it the target can do: the first of a chain, from the best to
  * what needs least. What could not be had, and why, becomes the sentence of the plan.
  *
- * A stencil method runs two-sided where that is proven, else in two culled passes a caster (Everitt 2002, section 3.3);
- * wrapping where that is proven, else about the middle of the range. */
+ * A stencil method runs two-sided where that is proven, else in two passes a caster, one for each side (Everitt 2002,
+ * section 3.3); wrapping where that is proven, else about the middle of the range. The other side is discarded by
+ * gl_FrontFacing where that is proven, and culled elsewhere: a driver may judge slivers by unrounded vertices when it
+ * culls and by rounded ones when it draws, and lose them both times. llvmpipe does. */
 #include "gni.h"
 
 #include <stdarg.h>
@@ -45,11 +47,15 @@ static void choose_layout(const gn_scene *s, gni_choice *choice)
     gn_stencil_layout *layout = &choice->stencil;
 
     layout->two_sided = !s->one_sided && gn_target_can(t, GN_CAN_TWO_SIDED_STENCIL);
+    layout->discard = !layout->two_sided && gn_target_can(t, GN_CAN_FRONT_FACING);
     if (s->one_sided)
-        say(choice, "; in culled passes, as asked for");
+        say(choice, "; one side at a time, as asked for");
     else if (!layout->two_sided)
-        say(choice, "; in culled passes, since %s %s", gn_capability_name(GN_CAN_TWO_SIDED_STENCIL),
+        say(choice, "; one side at a time, since %s %s", gn_capability_name(GN_CAN_TWO_SIDED_STENCIL),
             gni_why_not(t, GN_CAN_TWO_SIDED_STENCIL));
+    if (!layout->two_sided && !layout->discard)
+        say(choice, "; culled, which may lose slivers, since %s %s", gn_capability_name(GN_CAN_FRONT_FACING),
+            gni_why_not(t, GN_CAN_FRONT_FACING));
     layout->wrap = gn_target_can(t, GN_CAN_STENCIL_WRAP);
     layout->reference = layout->wrap ? 0 : MIDDLE;
     layout->low = layout->wrap ? 0 : -MIDDLE;

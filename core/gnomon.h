@@ -228,7 +228,8 @@ gn_method gn_method_by_name(const char *name, int *one_sided);
 
 /* Of a stencil that tells lit from shadowed by a count (DESIGN.md, decision 10). */
 typedef struct gn_stencil_layout {
-    int two_sided; /* 0: every volume is drawn twice, culled, what counts up first */
+    int two_sided; /* 0: every caster is drawn twice, one side of its volume at a time, what counts up first */
+    int discard;   /* then the other side is discarded by gl_FrontFacing; 0: culled, which may lose slivers */
     int wrap;      /* counts go round at 256; 0: they stop at the ends */
     int reference; /* the value of a pixel that no volume holds; buffers are cleared to it */
     int low, high; /* counts, from the reference, that are kept. Wrapping: of the sum; else also on the way to it */
@@ -251,7 +252,7 @@ typedef struct gn_scene {
     uint32_t object_count;
     gn_target target;
     gn_method method;
-    int one_sided; /* 1: volumes are drawn twice, culled, even where two-sided stencil is proven */
+    int one_sided; /* 1: one side of volumes at a time, even where two-sided stencil is proven */
 } gn_scene;
 
 enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4 };

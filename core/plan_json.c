@@ -93,9 +93,10 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
     put(&w, "{\"target\": {\"width\": %lu, \"height\": %lu, \"depth_bits\": %d, \"stencil_bits\": %d},\n",
         (unsigned long)plan->target.width, (unsigned long)plan->target.height, plan->target.depth_bits,
         plan->target.stencil_bits);
-    put(&w, " \"stencil\": {\"two_sided\": %s, \"wrap\": %s, \"reference\": %d, \"range\": [%d, %d]},\n",
-        plan->stencil.two_sided ? "true" : "false", plan->stencil.wrap ? "true" : "false", plan->stencil.reference,
-        plan->stencil.low, plan->stencil.high);
+    put(&w,
+        " \"stencil\": {\"two_sided\": %s, \"discard\": %s, \"wrap\": %s, \"reference\": %d, \"range\": [%d, %d]},\n",
+        plan->stencil.two_sided ? "true" : "false", plan->stencil.discard ? "true" : "false",
+        plan->stencil.wrap ? "true" : "false", plan->stencil.reference, plan->stencil.low, plan->stencil.high);
     put(&w, " \"clear_depth\": ");
     put_number(&w, plan->clear_depth);
     put(&w, ", \"depth_range\": [");

@@ -96,6 +96,8 @@ void gn_gles_destroy(gn_gles *g)
         g->gl.glDeleteBuffers(1, &g->quad);
         g->gl.glDeleteBuffers(1, &g->indices);
         g->gl.glDeleteProgram(g->program);
+        if (g->sided)
+            g->gl.glDeleteProgram(g->sided);
     }
     if (g->uploads)
         g->port.resize(g->port.user, g->uploads, g->upload_capacity * sizeof *g->uploads, 0);

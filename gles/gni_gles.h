@@ -42,6 +42,9 @@ struct gn_gles {
     int forgotten;
     GLuint program, quad, indices;
     GLint near_matrix, far_matrix, color;
+    GLuint sided; /* the program that discards one side of triangles; 0: not made yet */
+    GLint sided_near, sided_far, sided_side;
+    int is_sided; /* it is in use */
     GLuint attribute_arrays;
     gni_upload *uploads; /* sorted by address */
     uint32_t upload_count, upload_capacity;
@@ -71,6 +74,7 @@ const gni_upload *gni_find_upload(const gn_gles *g, const gn_mesh *mesh);
 /* volumes.c: draws records with the state as it is; `turned` draws the part of the caps that counts the other way
  * round. */
 void gni_begin_volumes(gn_gles *g, const float color[4]);
+void gni_begin_sided_volumes(gn_gles *g); /* without colour, by the program that discards */
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *record, int turned);
 void gni_end_volumes(gn_gles *g);
 

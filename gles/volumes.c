@@ -5,10 +5,19 @@
  * its drawn order of vertices, and the caller counts it the other way round (DESIGN.md, decision 4). */
 #include "gni_gles.h"
 
+void gni_begin_sided_volumes(gn_gles *g)
+{
+    g->is_sided = 1;
+    g->gl.glUseProgram(g->sided);
+    g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
+    g->gl.glEnableVertexAttribArray(0);
+}
+
 void gni_begin_volumes(gn_gles *g, const float color[4])
 {
     const gn_gl *gl = &g->gl;
 
+    g->is_sided = 0;
     gl->glUseProgram(g->program);
     gl->glUniform4fv(g->color, 1, color);
     gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
@@ -29,8 +38,8 @@ void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int tu
     gl->glBindBuffer(GL_ARRAY_BUFFER, gni_find_upload(g, object->mesh)->buffer);
     gl->glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float),
                               (const void *)((uintptr_t)chunk->first_vertex * 8 * sizeof(float)));
-    gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, object->matrix);
-    gl->glUniformMatrix4fv(g->far_matrix, 1, GL_FALSE, r->far_matrix);
+    gl->glUniformMatrix4fv(g->is_sided ? g->sided_near : g->near_matrix, 1, GL_FALSE, object->matrix);
+    gl->glUniformMatrix4fv(g->is_sided ? g->sided_far : g->far_matrix, 1, GL_FALSE, r->far_matrix);
     gl->glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_SHORT,
                        (const void *)((uintptr_t)first * sizeof(uint16_t)));
 }

@@ -14,6 +14,9 @@
  * of the test scenes are wrong by either method on llvmpipe, with it none (make truth). */
 #include "gni_gles.h"
 
+#include "shaders/flat.frag.h"
+#include "shaders/volume.vert.h"
+
 static const gni_state ambient = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .depth_func = GL_LESS};
 static const gni_state light = {
     .color_write = GL_TRUE, .depth_func = GL_EQUAL, .blend_source = GL_ONE, .blend_destination = GL_ONE};
@@ -48,6 +51,12 @@ static gni_state reset(const gn_stencil_layout *layout)
 /* Which faces a draw counts: both at once where stencil is two-sided, else those that count up, then the others. */
 typedef enum half { BOTH, RISING, FALLING } half;
 
+/* One side at a time: whether this half is the back faces. */
+static int shows_backs(int zfail, int swapped, half h)
+{
+    return (h == RISING) == (zfail != swapped);
+}
+
 /* swapped: fronts count as backs, since the object is mirrored or the triangles are turned caps (not both). */
 static gni_state counting(const gn_plan *plan, int zfail, int swapped, half h, gn_far far_end)
 {
@@ -67,9 +76,25 @@ static gni_state counting(const gn_plan *plan, int zfail, int swapped, half h, g
         s.back = backs_rise ? rise : fall;
     } else {
         s.front = s.back = h == RISING ? rise : fall;
-        s.cull = (h == RISING) == backs_rise ? GL_FRONT : GL_BACK;
+        if (!layout->discard)
+            s.cull = shows_backs(zfail, swapped, h) ? GL_FRONT : GL_BACK;
     }
     return s;
+}
+
+/* Once, when a plan first needs it. */
+static int make_sided(gn_gles *g)
+{
+    const gn_gl *gl = &g->gl;
+
+    g->sided =
+        gni_make_program(g, "one side of volumes", "#define SIDED\n", gni_shader_volume_vert, gni_shader_flat_frag);
+    if (!g->sided)
+        return 0;
+    g->sided_near = gl->glGetUniformLocation(g->sided, "u_near");
+    g->sided_far = gl->glGetUniformLocation(g->sided, "u_far");
+    g->sided_side = gl->glGetUniformLocation(g->sided, "u_side");
+    return 1;
 }
 
 gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
@@ -82,6 +107,8 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
         if (!gni_find_upload(g, plan->objects[plan->records[i].object].mesh))
             return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the mesh of object %lu was not uploaded",
                            (unsigned long)plan->records[i].object);
+    if (plan->stencil.discard && !g->sided && !make_sided(g))
+        return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses the shader that discards: see the log");
     g->plan = plan;
     g->clamps = 0;
     for (uint32_t i = 0; i < plan->record_count; i++)
@@ -130,6 +157,8 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, int zfail, h
                 continue;
             state = counting(g->plan, zfail, r->mirrored ^ turned, h, r->far_end);
             gni_set_state(g, &state);
+            if (g->plan->stencil.discard)
+                g->gl.glUniform1f(g->sided_side, shows_backs(zfail, r->mirrored ^ turned, h) ? -1.0f : 1.0f);
             gni_draw_record(g, g->plan, r, turned);
         }
 }
@@ -142,7 +171,10 @@ static void count_volumes(gn_gles *g, const gn_step *step)
     const int zfail = plan->lights[step->light].method == GN_METHOD_ZFAIL;
     const uint32_t end = step->first_record + step->record_count;
 
-    gni_begin_volumes(g, none);
+    if (plan->stencil.discard)
+        gni_begin_sided_volumes(g);
+    else
+        gni_begin_volumes(g, none);
     for (uint32_t i = step->first_record, next; i < end; i = next) {
         for (next = i + 1; next < end && plan->records[next].object == plan->records[i].object;)
             next++;

@@ -97,7 +97,8 @@ static void the_chain_goes_down_step_by_step(void **state)
     assert_int_equal(plan(), GN_OK);
     assert_string_equal(gn_plan_method_name(f.plan, 0), "zfail/one-sided");
     assert_true(!f.plan->stencil.two_sided && f.plan->stencil.wrap);
-    says("culled passes, since two-sided-stencil is hidden");
+    says("one side at a time, since two-sided-stencil is hidden");
+    assert_true(f.plan->stencil.discard);
 
     f.scene.target.proven &= ~(1u << GN_CAN_STENCIL_WRAP);
     assert_int_equal(plan(), GN_OK);
@@ -119,7 +120,11 @@ static void one_sided_may_be_asked_for(void **state)
     f.scene.one_sided = 1;
     assert_int_equal(plan(), GN_OK);
     assert_string_equal(gn_plan_method_name(f.plan, 0), "zpass/one-sided");
-    says("in culled passes, as asked for");
+    says("one side at a time, as asked for");
+    HIDE(GN_CAN_FRONT_FACING);
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->stencil.discard, 0);
+    says("culled, which may lose slivers, since front-facing is hidden");
     f.scene.one_sided = 0;
     f.scene.method = GN_METHOD_AUTO;
 }

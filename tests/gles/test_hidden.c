@@ -99,7 +99,8 @@ static void GL_APIENTRY blend_func_separate(GLenum source, GLenum destination, G
 static void GL_APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar *const *parts, const GLint *lengths)
 {
     for (GLsizei i = 0; i < count; i++) {
-        if (strstr(parts[i], "#define FACING") || strstr(parts[i], "#define FROM_BEHIND !gl_FrontFacing"))
+        if (strstr(parts[i], "#define FACING") || strstr(parts[i], "#define SIDED") ||
+            strstr(parts[i], "#define FROM_BEHIND !gl_FrontFacing"))
             use(GN_CAN_FRONT_FACING);
         if (strstr(parts[i], "#define HIGHP") || strstr(parts[i], "#define PRECISION highp"))
             use(GN_CAN_FRAGMENT_HIGHP);
