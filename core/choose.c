@@ -84,7 +84,7 @@ gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
     memset(choice, 0, sizeof *choice);
     if ((unsigned)s->method >= GN_METHOD_COUNT)
         return gn_fail(context, GN_E_ARG, "plan: no method has number %d", (int)s->method);
-    choice->method = s->method == GN_METHOD_AUTO ? GN_METHOD_ZFAIL : s->method;
+    choice->method = s->method == GN_METHOD_AUTO ? GN_METHOD_STENCIL : s->method;
     say(choice, s->method == GN_METHOD_AUTO ? "exact for any view" : "asked for by name");
     info = gn_method_describe(choice->method);
     for (int c = 0; c < GN_CAPABILITY_COUNT; c++)

@@ -116,7 +116,23 @@ int gni_must_end(const gn_scene *scene);
 /* "is hidden", "fails its proof" or "is not offered". */
 const char *gni_why_not(const gn_target *target, gn_capability capability);
 
-/* ends.c: where volumes end that must end on planes. */
+/* cases.c: how a caster is counted. */
+typedef struct gni_view {
+    double near_corners[4][3]; /* view space: of the near rectangle */
+    double planes[5][4];       /* its four sides and the near plane; > 0 inside */
+} gni_view;
+
+typedef struct gni_case {
+    int number;    /* McGuire's: 1 before what is seen, 2 behind it and the caster out of view, 3 behind it */
+    unsigned seen; /* may be in view: 1 the caster, 2 its image at infinity, 4 its volume */
+} gni_case;
+
+void gni_make_view(gni_view *view, const gn_camera *camera);
+/* light: view space. Conservative in all: what is not sure touches, or is seen. */
+void gni_find_case(gni_case *out, const gni_view *view, const gn_mesh_info *info, const double model_view[16],
+                   const double light[4]);
+
+/* ends.c: where volumes end that must end. */
 #define GNI_MAX_ENDS 250 /* end planes of one caster for one light; a byte names one */
 
 typedef struct gni_region {

@@ -208,6 +208,7 @@ typedef enum gn_method {
     GN_METHOD_AUTO,  /* the best exact one that the target can do */
     GN_METHOD_ZFAIL, /* stencil, closed volumes, counted behind what is seen (Everitt 2002) */
     GN_METHOD_ZPASS, /* stencil, counted before what is seen: wrong where a volume meets the near plane (Hoxley 2003) */
+    GN_METHOD_STENCIL, /* stencil, before or behind what is seen for each caster, by the occlusion pyramid (McGuire 2003) */
     GN_METHOD_COUNT
 } gn_method;
 
@@ -265,6 +266,7 @@ typedef struct gn_record {
     unsigned parts; /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: those with triangles */
     uint32_t first_index;
     uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
+    int mcguire_case;                                                       /* 1: by z-pass; 2, 3: by z-fail */
     int mirrored;                                                           /* the model matrix swaps front and back */
     gn_far far_end;
     double end_plane[4]; /* world; the volume ends there. 0 0 0 1 is the plane at infinity */

@@ -21,6 +21,9 @@ static const struct {
     {{"zpass", "stencil, every caster by z-pass; wrong where a volume meets the near plane (Hoxley 2003)",
       STENCIL_NEEDS, STENCIL_LIKES, 0},
      "zpass/one-sided"},
+    {{"stencil", "stencil, z-pass or z-fail for each caster, parts out of view left out (McGuire 2003)", STENCIL_NEEDS,
+      STENCIL_LIKES, 1},
+     "stencil/one-sided"},
 };
 
 const gn_method_info *gn_method_describe(gn_method method)

@@ -45,6 +45,8 @@ typedef struct draft {
     gni_region *region;
     gni_ends *ends;
     gni_choice choice;
+    gni_view view_of_camera;
+    gni_case at_hand; /* of the caster at hand */
     double projection[16], view[16];
 } draft;
 
@@ -157,17 +159,31 @@ static void light_in_view(const draft *d, const gn_light *light, double out[4])
     out[3] = is_sun ? 0.0 : 1.0;
 }
 
-static unsigned parts_for(gn_method method, const gn_object *object, gn_far far_end)
+/* How a caster is counted, and which parts of its volume that takes. */
+static unsigned choose_parts(const draft *d, uint32_t light, uint32_t object_index, gn_far far_end, int *mcguire_case)
 {
+    const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh_info *info = &object->mesh->info;
-    unsigned parts = GN_SIDES;
+    const gn_method method = d->lights[light].method;
+    gni_case c = {method == GN_METHOD_ZPASS ? 1 : 3, 7};
+    unsigned parts = 0;
 
+    if (method == GN_METHOD_STENCIL)
+        c = d->at_hand;
+    if (method == GN_METHOD_STENCIL && far_end == GN_FAR_CLAMPED && c.number == 1)
+        c.number = c.seen & 1 ? 3 : 2; /* what lies before the near plane would be drawn, and counted */
+    if (c.seen & 4)
+        parts |= GN_SIDES;
     /* z-pass: the eye may look into a volume from behind its end (DESIGN.md, decision 6) */
-    if (method == GN_METHOD_ZFAIL || far_end == GN_FAR_ENDED)
+    if (far_end == GN_FAR_ENDED ? c.seen & 4 : c.number != 1 && c.seen & 2)
         parts |= GN_DARK_CAP;
-    /* before what is seen there is no light cap where the caster itself is seen instead (decision 4) */
-    if (method == GN_METHOD_ZFAIL || !(object->flags & GN_DRAWN) || info->solid_part_count != info->part_count)
+    /* z-pass alone leaves the light cap out where the caster itself is seen instead (decision 4). Slivers that turn over
+     * when their vertices are rounded are culled when the host draws and counted here: with the cap both ways of counting
+     * agree on them too. */
+    if (c.seen & 1 &&
+        (method != GN_METHOD_ZPASS || !(object->flags & GN_DRAWN) || info->solid_part_count != info->part_count))
         parts |= GN_LIGHT_CAP;
+    *mcguire_case = c.number;
     return parts;
 }
 
@@ -189,7 +205,8 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
 {
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
-    const unsigned parts = parts_for(d->lights[light].method, object, far_end);
+    int mcguire_case;
+    const unsigned parts = choose_parts(d, light, object_index, far_end, &mcguire_case);
     const int converging = far_end != GN_FAR_ENDED && light_view[3] == 0.0;
     double matrix[16], extrusion[16], far_matrix[16], plane_world[4] = {0, 0, 0, 0};
 
@@ -221,6 +238,7 @@ static void add_records(draft *d, uint32_t light, uint32_t object_index, const i
         r->dark_cap_count = stream.dark_cap;
         r->light_cap_count = stream.light_cap;
         r->turned_cap_count = stream.turned_cap;
+        r->mcguire_case = mcguire_case;
         r->mirrored = d->objects[object_index].mirrored;
         r->far_end = far_end;
         memcpy(r->end_plane, plane_world, sizeof r->end_plane);
@@ -320,7 +338,7 @@ static gn_result add_volumes(draft *d, uint32_t light)
     gn_plan_light *about = &d->lights[light];
     gn_result result = GN_OK;
     uint64_t casting = 0;
-    double light_view[4];
+    double light_view[4], model_view[16];
 
     light_in_view(d, &d->scene->lights[light], light_view);
     for (uint32_t i = 0; i < d->scene->object_count && result == GN_OK; i++) {
@@ -328,6 +346,10 @@ static gn_result add_volumes(draft *d, uint32_t light)
         const uint32_t before = d->plan->record_count;
 
         if (!(object->flags & GN_CASTS))
+            continue;
+        gni_model_view(model_view, &d->scene->camera, object->model, object->mesh->info.centre);
+        gni_find_case(&d->at_hand, &d->view_of_camera, &object->mesh->info, model_view, light_view);
+        if (about->method == GN_METHOD_STENCIL && !(d->at_hand.seen & 4))
             continue;
         gn_object_casting(object, &d->scene->lights[light], d->casting);
         for (uint32_t t = 0; t < object->mesh->info.triangle_count; t++)
@@ -338,7 +360,7 @@ static gn_result add_volumes(draft *d, uint32_t light)
             add_endless(d, light, i, light_view, GN_FAR_INFINITE);
         if (d->plan->record_count > before) {
             about->casters++;
-            about->cases[about->method == GN_METHOD_ZPASS ? 0 : 2]++;
+            about->cases[d->records[before].mcguire_case - 1]++;
         }
     }
     about->may_overflow = !layout->wrap && casting > (uint64_t)layout->high;
@@ -481,6 +503,7 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
         d.plan->clear_depth = gni_depth_of(&scene->camera, d.plan->depth_range, scene->camera.zfar);
     gni_projection(d.projection, &scene->camera, d.plan->depth_range);
     gni_model_view(d.view, &scene->camera, identity, no_centre);
+    gni_make_view(&d.view_of_camera, &scene->camera);
     place_objects(&d);
     add_step(&d, GN_STEP_CLEAR, GN_DRAW_NOTHING, 0, 0);
     add_step(&d, GN_STEP_DRAW, GN_DRAW_AMBIENT, 0, 0);

@@ -57,8 +57,8 @@ static void put_record(writer *w, const gn_record *r)
         "%lu},",
         (unsigned long)r->first_index, (unsigned long)r->side_count, (unsigned long)r->dark_cap_count,
         (unsigned long)r->light_cap_count, (unsigned long)r->turned_cap_count);
-    put(w, " \"mirrored\": %s, \"far_end\": \"%s\", \"end_plane\": [", r->mirrored ? "true" : "false",
-        far_ends[r->far_end]);
+    put(w, " \"case\": %d, \"mirrored\": %s, \"far_end\": \"%s\", \"end_plane\": [", r->mcguire_case,
+        r->mirrored ? "true" : "false", far_ends[r->far_end]);
     for (int i = 0; i < 4; i++) {
         put(w, "%s", i ? ", " : "");
         put_number(w, r->end_plane[i]);

@@ -51,25 +51,36 @@ static gni_state reset(const gn_stencil_layout *layout)
 /* Which faces a draw counts: both at once where stencil is two-sided, else those that count up, then the others. */
 typedef enum half { BOTH, RISING, FALLING } half;
 
-/* One side at a time: whether this half is the back faces. */
-static int shows_backs(int zfail, int swapped, half h)
+/* Fronts count as backs where the object is mirrored or the triangles are turned caps, not both. */
+static int is_swapped(const gn_record *r, int turned)
 {
-    return (h == RISING) == (zfail != swapped);
+    return r->mirrored ^ turned;
 }
 
-/* swapped: fronts count as backs, since the object is mirrored or the triangles are turned caps (not both). */
-static gni_state counting(const gn_plan *plan, int zfail, int swapped, half h, gn_far far_end)
+static int is_zfail(const gn_record *r)
+{
+    return r->mcguire_case != 1;
+}
+
+/* One side at a time: whether this half is the back faces. */
+static int shows_backs(const gn_record *r, int turned, half h)
+{
+    return (h == RISING) == (is_zfail(r) != is_swapped(r, turned));
+}
+
+static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, half h)
 {
     const gn_stencil_layout *layout = &plan->stencil;
+    const int zfail = is_zfail(r);
     const GLenum up = layout->wrap ? GL_INCR_WRAP : GL_INCR, down = layout->wrap ? GL_DECR_WRAP : GL_DECR;
     const gni_face rise = {zfail ? up : 0, zfail ? 0 : up}, fall = {zfail ? down : 0, zfail ? 0 : down};
-    const int backs_rise = zfail != swapped;
+    const int backs_rise = zfail != is_swapped(r, turned);
     gni_state s = {.stencil_write = ~0u,
                    .depth_func = GL_LESS,
                    .stencil_func = GL_ALWAYS,
                    .stencil_reference = layout->reference,
                    .offset = 1,
-                   .clamp = far_end == GN_FAR_CLAMPED};
+                   .clamp = r->far_end == GN_FAR_CLAMPED};
 
     if (h == BOTH) {
         s.front = backs_rise ? fall : rise;
@@ -77,7 +88,7 @@ static gni_state counting(const gn_plan *plan, int zfail, int swapped, half h, g
     } else {
         s.front = s.back = h == RISING ? rise : fall;
         if (!layout->discard)
-            s.cull = shows_backs(zfail, swapped, h) ? GL_FRONT : GL_BACK;
+            s.cull = shows_backs(r, turned, h) ? GL_FRONT : GL_BACK;
     }
     return s;
 }
@@ -146,7 +157,7 @@ static void reset_stencil(gn_gles *g)
     gni_end_volumes(g);
 }
 
-static void count_records(gn_gles *g, uint32_t first, uint32_t end, int zfail, half h)
+static void count_records(gn_gles *g, uint32_t first, uint32_t end, half h)
 {
     for (uint32_t i = first; i < end; i++)
         for (int turned = 0; turned < 2; turned++) {
@@ -155,10 +166,10 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, int zfail, h
 
             if (turned && !r->turned_cap_count)
                 continue;
-            state = counting(g->plan, zfail, r->mirrored ^ turned, h, r->far_end);
+            state = counting(g->plan, r, turned, h);
             gni_set_state(g, &state);
             if (g->plan->stencil.discard)
-                g->gl.glUniform1f(g->sided_side, shows_backs(zfail, r->mirrored ^ turned, h) ? -1.0f : 1.0f);
+                g->gl.glUniform1f(g->sided_side, shows_backs(r, turned, h) ? -1.0f : 1.0f);
             gni_draw_record(g, g->plan, r, turned);
         }
 }
@@ -168,7 +179,6 @@ static void count_volumes(gn_gles *g, const gn_step *step)
 {
     static const float none[4] = {0, 0, 0, 0};
     const gn_plan *plan = g->plan;
-    const int zfail = plan->lights[step->light].method == GN_METHOD_ZFAIL;
     const uint32_t end = step->first_record + step->record_count;
 
     if (plan->stencil.discard)
@@ -179,10 +189,10 @@ static void count_volumes(gn_gles *g, const gn_step *step)
         for (next = i + 1; next < end && plan->records[next].object == plan->records[i].object;)
             next++;
         if (plan->stencil.two_sided) {
-            count_records(g, i, next, zfail, BOTH);
+            count_records(g, i, next, BOTH);
         } else {
-            count_records(g, i, next, zfail, RISING);
-            count_records(g, i, next, zfail, FALLING);
+            count_records(g, i, next, RISING);
+            count_records(g, i, next, FALLING);
         }
     }
     gni_end_volumes(g);

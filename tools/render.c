@@ -14,25 +14,26 @@
 #include "report.h"
 #include "stage.h"
 
-const char help_render[] = "usage: gnomon render SCENE.gltf|SCENE.glb [options]\n"
-                           "\n"
-                           "Draws a glTF 2.0 scene with pixel-exact shadows in OpenGL ES 2.0, without a window.\n"
-                           "\n"
-                           "  -o FILE.png           the lit frame\n"
-                           "  --size WxH            [800x600]\n"
-                           "  --mask-dir DIR        writes light0.png, light1.png ... into DIR: 255 lit, 0 shadowed, "
-                           "alpha where a surface is\n"
-                           "  --method NAME         see `gnomon methods` [auto]\n"
-                           "  --platform NAME       egl or osmesa [the first that works]\n"
-                           "  --hide CAP[,CAP...]   pretends that capabilities are absent: `gnomon probe` names them\n"
-                           "  --explain             prints why each light got its method\n"
-                           "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
-                           "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
-                           "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
-                           "  --show WHAT           over the frame: volumes, silhouette; or the mask\n"
-                           "  --plan FILE.json      the plan of the last frame\n"
-                           "  --report FILE.json    driver, lights, counts and times\n"
-                           "  --help                this text\n";
+const char help_render[] =
+    "usage: gnomon render SCENE.gltf|SCENE.glb [options]\n"
+    "\n"
+    "Draws a glTF 2.0 scene with pixel-exact shadows in OpenGL ES 2.0, without a window.\n"
+    "\n"
+    "  -o FILE.png           the lit frame\n"
+    "  --size WxH            [800x600]\n"
+    "  --mask-dir DIR        writes light0.png, light1.png ... into DIR: 255 lit, 0 shadowed, "
+    "alpha where a surface is\n"
+    "  --method NAME         see `gnomon methods` [auto]\n"
+    "  --platform NAME       egl or osmesa [the first that works]\n"
+    "  --hide CAP[,CAP...]   pretends that capabilities are absent: `gnomon probe` names them\n"
+    "  --explain             prints why each light got its method, and each caster its case\n"
+    "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
+    "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
+    "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
+    "  --show WHAT           over the frame: volumes, silhouette, cases (1 green, 2 orange, 3 red); or the mask\n"
+    "  --plan FILE.json      the plan of the last frame\n"
+    "  --report FILE.json    driver, lights, counts and times\n"
+    "  --help                this text\n";
 
 typedef struct job {
     const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report;
@@ -224,11 +225,45 @@ static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_M
     return EXIT_DONE;
 }
 
+/* A line for each light, and for each of its casters. */
+static void explain(const stage *s)
+{
+    static const char *const cases[] = {"case 1, by z-pass: it stands not between the light and the near plane",
+                                        "case 2, by z-fail: its shadow may reach the near plane; it is out of view",
+                                        "case 3, by z-fail: its shadow may reach the near plane, or it does itself"};
+    static const char *const parts[] = {"sides", "light cap", "dark cap"};
+
+    for (uint32_t i = 0; i < s->plan->light_count; i++) {
+        printf("light %u: %s: %s\n", (unsigned)i, gn_plan_method_name(s->plan, i), s->plan->lights[i].reason);
+        for (uint32_t o = 0; o < s->plan->object_count; o++) {
+            const gn_record *found = NULL;
+            const char *separator = "; ";
+            unsigned drawn = 0;
+
+            for (uint32_t r = 0; r < s->plan->record_count; r++)
+                if (s->plan->records[r].light == i && s->plan->records[r].object == o) {
+                    found = &s->plan->records[r];
+                    drawn |= found->parts;
+                }
+            if (!found && s->plan->objects[o].flags & GN_CASTS)
+                printf("  object %u: left out: no part of its volume is in view\n", (unsigned)o);
+            if (!found)
+                continue;
+            printf("  object %u: %s", (unsigned)o, cases[found->mcguire_case - 1]);
+            for (int p = 0; p < 3; p++)
+                if (drawn >> p & 1) {
+                    printf("%s%s", separator, parts[p]);
+                    separator = ", ";
+                }
+            printf("\n");
+        }
+    }
+}
+
 static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
 {
     if (j->explain)
-        for (uint32_t i = 0; i < s->plan->light_count; i++)
-            printf("light %u: %s: %s\n", (unsigned)i, gn_plan_method_name(s->plan, i), s->plan->lights[i].reason);
+        explain(s);
     for (uint32_t i = 0; i < s->plan->light_count; i++)
         if (s->plan->lights[i].may_overflow)
             say("light %u: more triangles cast than a stencil counts that does not wrap: deep shadows may be wrong "
@@ -239,6 +274,8 @@ static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE
             (unsigned)s->plan->endless_casters);
     if (j->show && strcmp(j->show, "volumes") == 0)
         stage_show_volumes(s);
+    if (j->show && strcmp(j->show, "cases") == 0)
+        stage_show_cases(s);
     if (j->show && strcmp(j->show, "silhouette") == 0)
         stage_show_silhouettes(s);
     if (j->frame && !write_frame(s, j->frame))
@@ -309,7 +346,7 @@ static int one_of(const char *word, const char *const *words)
 
 int command_render(int count, char **arguments)
 {
-    static const char *const shows[] = {"volumes", "silhouette", "mask", NULL};
+    static const char *const shows[] = {"volumes", "silhouette", "cases", "mask", NULL};
     job j = {.method_name = "auto", .size = {800, 600}, .frames = 1};
     const option options[] = {
         {"-o", OPTION_TEXT, &j.frame, 0, 0},
@@ -346,7 +383,7 @@ int command_render(int count, char **arguments)
     if (!check_hidden("--hide", j.hide) || !check_hidden("GNOMON_HIDE", getenv("GNOMON_HIDE")))
         return EXIT_USAGE;
     if (j.show && !one_of(j.show, shows)) {
-        say("--show: takes volumes, silhouette or mask (%s)", j.show);
+        say("--show: takes volumes, silhouette, cases or mask (%s)", j.show);
         return EXIT_USAGE;
     }
     for (int i = 0; j.platform && strcmp(j.platform, platform_kinds[i]->name) != 0;)

@@ -17,6 +17,7 @@ static void make_fixture(test_frame *f)
 
     assert_int_equal(test_frame_make(f, context, NULL, target), GN_OK);
     f->scene.camera.zfar = 0.0;
+    f->scene.method = GN_METHOD_ZFAIL; /* the one whose parts do not depend on the view */
 }
 
 static void drop_fixture(test_frame *f)

@@ -38,7 +38,7 @@ for command in render probe methods; do
     ok "$command --help" sh -c "[ \"\$($gnomon $command --help)\" = \"\$($gnomon help $command)\" ]"
 done
 ok "help lists the commands" sh -c "$gnomon help | grep -q '  probe'"
-ok "methods lists zfail and zpass" sh -c "$gnomon methods | grep -q '^zfail  *exact' && $gnomon methods | grep -q '^zpass  *inexact'"
+ok "methods lists zfail, zpass and stencil" sh -c "$gnomon methods | grep -q '^zfail  *exact' && $gnomon methods | grep -q '^zpass  *inexact' && $gnomon methods | grep -q '^stencil  *exact'"
 ok "probe names driver and methods" sh -c "$gnomon probe --platform egl | grep -q 'zfail  *possible'"
 ok "probe --json is JSON" sh -c "$gnomon probe --json | python3 -c 'import json, sys; assert len(json.load(sys.stdin)) == 2'"
 ok "probe says what is hidden" sh -c "$gnomon probe --platform egl --hide w0 | grep -qE '^  w0 +yes +no +yes'"
@@ -64,7 +64,7 @@ refuses 2 "GNOMON_HIDE: no capability" probe
 refuses 2 "GNOMON_HIDE: no capability" render $scenes/cube_point.gltf -o "$tmp/x.png"
 unset GNOMON_HIDE
 refuses 2 "(auto/one-sided)" render $scenes/cube_point.gltf -o "$tmp/x.png" --method auto/one-sided
-refuses 3 "method zfail needs stencil, which is hidden" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil
+refuses 3 "method stencil needs stencil, which is hidden" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil
 refuses 2 "a value is missing" render $scenes/cube_point.gltf -o
 refuses 1 "none.gltf" render "$tmp/none.gltf" -o "$tmp/x.png"
 refuses 1 "cannot be written" render $scenes/cube_point.gltf --size 16x16 -o "$tmp/no/such/x.png"
@@ -87,7 +87,7 @@ done
 ok "four masks" sh -c "[ \$(ls $tmp/egl | wc -l) = 4 ]"
 ok "egl and osmesa give identical masks" diff -r "$tmp/egl" "$tmp/osmesa"
 ok "a mask has grey and alpha" sh -c "[ \$(od -An -tu1 -j 25 -N 1 $tmp/egl/light0.png) = 4 ]"
-for show in volumes silhouette mask; do
+for show in volumes silhouette cases mask; do
     ok "--show $show" "$gnomon" render $scenes/cube_point.gltf -o "$tmp/$show.png" --size 160x120 --show $show
     ok "--show $show changes the picture" sh -c "! cmp -s $tmp/$show.png $tmp/a.png"
 done
@@ -114,8 +114,9 @@ done
 ok "one-sided by name" "$gnomon" render $scenes/colours.gltf --mask-dir "$tmp/hidden" --size 160x120 --platform egl --method zfail/one-sided --report "$tmp/o.json"
 ok "gives the same" diff -r "$tmp/egl" "$tmp/hidden"
 ok "and is reported" has "$tmp/o.json" 'zfail/one-sided'
-ok "--explain says why" sh -c "$gnomon render $scenes/cube_point.gltf --size 16x16 --explain --hide two-sided-stencil | grep -q '^light 0: zfail/one-sided: exact for any view; one side at a time, since two-sided-stencil is hidden$'"
+ok "--explain says why" sh -c "$gnomon render $scenes/cube_point.gltf --size 16x16 --explain --hide two-sided-stencil | grep -q '^light 0: stencil/one-sided: exact for any view; one side at a time, since two-sided-stencil is hidden$'"
 
+ok "and each caster's case" sh -c "$gnomon render $scenes/near_cuts_volume.gltf --size 64x48 --explain > $tmp/cases.txt && grep -q 'case 1, by z-pass.*; sides' $tmp/cases.txt && grep -q 'case 3, by z-fail.*light cap' $tmp/cases.txt"
 printf '{"asset": {"version": "2.0"}}' > "$tmp/empty.gltf"
 ok "an empty scene is drawn" "$gnomon" render "$tmp/empty.gltf" -o "$tmp/empty.png" --size 16x16
 ok "and says that it placed a camera and a light" sh -c "[ \$($gnomon render $tmp/empty.gltf -o $tmp/empty.png --size 16x16 2>&1 | grep -c placed) = 2 ]"

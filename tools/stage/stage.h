@@ -115,8 +115,9 @@ int stage_draw_shares(stage *s, char message[SCENE_MESSAGE]);
 /* One pass with all lights and no shadows, without the library. */
 void stage_draw_plain(stage *s);
 
-/* Over the frame that was just drawn: volumes, or silhouettes as lines. */
+/* Over the frame that was just drawn: volumes, in one colour or by McGuire's case; or silhouettes as lines. */
 void stage_show_volumes(stage *s);
+void stage_show_cases(stage *s); /* 1 green, 2 orange, 3 red */
 void stage_show_silhouettes(stage *s);
 
 /* How many fragments were rasterised at each pixel, up to 255: red of the plan's volumes, green of the scene's

@@ -33,6 +33,17 @@ void stage_show_volumes(stage *s)
     done(s);
 }
 
+void stage_show_cases(stage *s)
+{
+    static const float colors[3][4] = {
+        {0.05f, 0.45f, 0.1f, 0.18f}, {0.6f, 0.3f, 0.0f, 0.18f}, {0.55f, 0.03f, 0.03f, 0.18f}};
+
+    over_the_frame(s, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    for (uint32_t r = 0; r < s->plan->record_count; r++)
+        gn_gles_draw_volumes(s->gles, s->plan, r, 1, colors[s->plan->records[r].mcguire_case - 1]);
+    done(s);
+}
+
 /* The edges of one caster as the light sees it, as lines; returns how many. */
 static size_t collect_edges(stage *s, const gn_object *object, const gn_light *light)
 {

@@ -1,0 +1,91 @@
+/* test_cases.c - McGuire's cases against z-fail throughout: from random places in and around the scenes, in and near
+ * volumes, the masks have the same bits; every case comes up; and the counts are never higher. llvmpipe: a rasteriser that
+ * is not watertight counts differently before and behind what is seen. */
+#include "gn_matrix.h"
+#include "gn_test.h"
+#include "stage.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 64, HEIGHT = 48, VIEWS = 90 };
+
+static void place_camera(scene *s, uint32_t *rng)
+{
+    static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
+    double q[4], at[3];
+
+    for (int i = 0; i < 4; i++)
+        q[i] = test_uniform(rng, -1, 1);
+    for (int i = 0; i < 3; i++) {
+        const double middle = 0.5 * (s->bounds_min[i] + s->bounds_max[i]),
+                     half = 0.5 * (s->bounds_max[i] - s->bounds_min[i]);
+
+        at[i] = middle + test_uniform(rng, -0.7, 0.7) * half;
+    }
+    gn_mat4_from_trs(s->camera.world, zero, q, one);
+    memcpy(s->camera.world + 12, at, sizeof at);
+}
+
+static void masks_are_the_same(void **state)
+{
+    static const char *const scenes[] = {
+        "behind_eye", "cube_point",  "cube_sun", "near_cuts_volume", "open_container", "open_quad", "ortho",
+        "ortho_wide", "room_eye_in", "soup",     "two_lamps_nested", "transforms"};
+    static uint8_t rgba[2][4 * WIDTH * HEIGHT];
+    uint64_t cases[4] = {0}, indices[2] = {0};
+    uint32_t rng = 20031u, skipped = 0;
+
+    (void)state;
+    setenv("GALLIUM_DRIVER", "llvmpipe", 1);
+    for (size_t n = 0; n < sizeof scenes / sizeof scenes[0]; n++) {
+        const stage_options options = {"egl", WIDTH, HEIGHT, 1.0, 24, 8, NULL, 0.0, NULL};
+        char path[128], message[SCENE_MESSAGE] = "";
+        scene loaded;
+        stage *s;
+
+        snprintf(path, sizeof path, "build/scenes/%s.gltf", scenes[n]);
+        if (!scene_load(&loaded, path, NULL, message) || stage_open(&s, &loaded, &options, message) != 0)
+            fail_msg("%s: %s", path, message);
+        for (int view = 0; view < VIEWS; view++) {
+            const uint32_t light = test_random(&rng) % (uint32_t)loaded.light_count;
+
+            stage_pose(s, 0, 0);
+            place_camera(&loaded, &rng);
+            for (int m = 0; m < 2; m++) {
+                const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1};
+
+                assert_int_equal(stage_plan(s, &wish, message), 0);
+                assert_true(stage_draw_mask(s, light, message) && platform_read_back(s->platform, rgba[m]));
+                indices[m] = s->plan->index_count;
+            }
+            if (indices[1] > indices[0])
+                fail_msg("%s, view %d: %lu indices, z-fail %lu", path, view, (unsigned long)indices[1],
+                         (unsigned long)indices[0]);
+            for (int i = 0; i < WIDTH * HEIGHT; i++)
+                if (memcmp(rgba[0] + 4 * i, rgba[1] + 4 * i, 4) != 0)
+                    fail_msg("%s, view %d, light %u: pixel %d, %d differs", path, view, (unsigned)light, i % WIDTH,
+                             i / WIDTH);
+            for (int c = 0; c < 3; c++)
+                cases[c] += s->plan->lights[0].cases[c];
+            for (size_t i = 0; i < loaded.instance_count; i++)
+                skipped += (s->objects[i].flags & GN_CASTS) != 0;
+            skipped -= s->plan->lights[0].casters;
+        }
+        stage_close(s);
+        scene_free(&loaded);
+    }
+    print_message("           case 1: %lu, 2: %lu, 3: %lu casters; %lu left out\n", (unsigned long)cases[0],
+                  (unsigned long)cases[1], (unsigned long)cases[2], (unsigned long)skipped);
+    for (int c = 0; c < 3; c++)
+        assert_true(cases[c] > 50);
+    assert_true(skipped > 50);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(masks_are_the_same)};
+
+    return cmocka_run_group_tests_name("cases", tests, NULL, NULL);
+}
