@@ -1,12 +1,12 @@
 /* test_hidden.c - what is hidden is never used: a recorder between library and driver sees, while the target is
  * described and a frame is drawn, no call that needs the hidden capability. Nothing hidden, it sees them all. */
+#include "between.h"
 #include "gn_test.h"
 #include "stage.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static gn_gl real;
 static uint32_t used; /* set of gn_capability */
 static GLenum texture_type;
 static int clamps; /* depth clamp is enabled */
@@ -28,7 +28,7 @@ static void GL_APIENTRY stencil_op(GLenum fail, GLenum depth_fail, GLenum pass)
 {
     see_operation(depth_fail);
     see_operation(pass);
-    real.glStencilOp(fail, depth_fail, pass);
+    between_real.glStencilOp(fail, depth_fail, pass);
 }
 
 static void GL_APIENTRY stencil_op_separate(GLenum face, GLenum fail, GLenum depth_fail, GLenum pass)
@@ -37,7 +37,7 @@ static void GL_APIENTRY stencil_op_separate(GLenum face, GLenum fail, GLenum dep
         use(GN_CAN_TWO_SIDED_STENCIL);
     see_operation(depth_fail);
     see_operation(pass);
-    real.glStencilOpSeparate(face, fail, depth_fail, pass);
+    between_real.glStencilOpSeparate(face, fail, depth_fail, pass);
 }
 
 static void GL_APIENTRY enable(GLenum name)
@@ -52,7 +52,7 @@ static void GL_APIENTRY enable(GLenum name)
     }
     if (name == GL_SCISSOR_TEST)
         use(GN_CAN_PARTIAL_CLEAR);
-    real.glEnable(name);
+    between_real.glEnable(name);
 }
 
 static void GL_APIENTRY disable(GLenum name)
@@ -61,7 +61,7 @@ static void GL_APIENTRY disable(GLenum name)
         use(GN_CAN_DEPTH_CLAMP);
         clamps = 0;
     }
-    real.glDisable(name);
+    between_real.glDisable(name);
 }
 
 static void GL_APIENTRY clear(GLbitfield buffers)
@@ -70,7 +70,7 @@ static void GL_APIENTRY clear(GLbitfield buffers)
         use(GN_CAN_STENCIL);
     if (buffers & GL_DEPTH_BUFFER_BIT)
         use(GN_CAN_DEPTH);
-    real.glClear(buffers);
+    between_real.glClear(buffers);
 }
 
 static void GL_APIENTRY blend_equation(GLenum mode)
@@ -79,21 +79,21 @@ static void GL_APIENTRY blend_equation(GLenum mode)
         use(GN_CAN_BLEND_SUBTRACT);
     if (mode == 0x8007 || mode == 0x8008)
         use(GN_CAN_BLEND_MINMAX);
-    real.glBlendEquation(mode);
+    between_real.glBlendEquation(mode);
 }
 
 static void GL_APIENTRY blend_func(GLenum source, GLenum destination)
 {
     if (source == GL_ZERO && destination == GL_SRC_COLOR)
         use(GN_CAN_BLEND_ROUNDING);
-    real.glBlendFunc(source, destination);
+    between_real.glBlendFunc(source, destination);
 }
 
 static void GL_APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum source_a, GLenum destination_a)
 {
     if (source == GL_DST_ALPHA)
         use(GN_CAN_ALPHA);
-    real.glBlendFuncSeparate(source, destination, source_a, destination_a);
+    between_real.glBlendFuncSeparate(source, destination, source_a, destination_a);
 }
 
 static void GL_APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar *const *parts, const GLint *lengths)
@@ -105,7 +105,7 @@ static void GL_APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar
         if (strstr(parts[i], "#define HIGHP") || strstr(parts[i], "#define PRECISION highp"))
             use(GN_CAN_FRAGMENT_HIGHP);
     }
-    real.glShaderSource(shader, count, parts, lengths);
+    between_real.glShaderSource(shader, count, parts, lengths);
 }
 
 /* Triangles at infinity are told by the matrix that sends them there: z = w, and no depth clamp to keep them. */
@@ -113,14 +113,14 @@ static void GL_APIENTRY uniform_matrix(GLint location, GLsizei count, GLboolean 
 {
     if (m[2] == m[3] && m[6] == m[7] && m[10] == m[11] && m[14] == m[15] && !clamps)
         use(GN_CAN_W0);
-    real.glUniformMatrix4fv(location, count, transpose, m);
+    between_real.glUniformMatrix4fv(location, count, transpose, m);
 }
 
 static void GL_APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void *indices)
 {
     if (type == GL_UNSIGNED_INT)
         use(GN_CAN_UINT_INDICES);
-    real.glDrawElements(mode, count, type, indices);
+    between_real.glDrawElements(mode, count, type, indices);
 }
 
 static void GL_APIENTRY tex_image(GLenum target, GLint level, GLint internal, GLsizei width, GLsizei height,
@@ -129,7 +129,7 @@ static void GL_APIENTRY tex_image(GLenum target, GLint level, GLint internal, GL
     texture_type = type;
     if (format == GL_DEPTH_COMPONENT)
         use(GN_CAN_DEPTH_TEXTURE);
-    real.glTexImage2D(target, level, internal, width, height, border, format, type, pixels);
+    between_real.glTexImage2D(target, level, internal, width, height, border, format, type, pixels);
 }
 
 static void GL_APIENTRY framebuffer_texture(GLenum target, GLenum attachment, GLenum kind, GLuint name, GLint level)
@@ -139,62 +139,47 @@ static void GL_APIENTRY framebuffer_texture(GLenum target, GLenum attachment, GL
             : texture_type == GL_UNSIGNED_SHORT_5_6_5   ? GN_CAN_FBO_RGB565
             : texture_type == GL_UNSIGNED_SHORT_5_5_5_1 ? GN_CAN_FBO_RGB5A1
                                                         : GN_CAN_FBO_RGBA4);
-    real.glFramebufferTexture2D(target, attachment, kind, name, level);
+    between_real.glFramebufferTexture2D(target, attachment, kind, name, level);
 }
 
 static void GL_APIENTRY renderbuffer_storage(GLenum target, GLenum format, GLsizei width, GLsizei height)
 {
     use(format == 0x88F0 ? GN_CAN_PACKED_DEPTH_STENCIL : GN_CAN_SHARED_DEPTH);
-    real.glRenderbufferStorage(target, format, width, height);
+    between_real.glRenderbufferStorage(target, format, width, height);
 }
 
 static void GL_APIENTRY begin_query(GLenum target, GLuint query)
 {
     use(GN_CAN_TIMER_QUERY);
-    real.glBeginQueryEXT(target, query);
+    between_real.glBeginQueryEXT(target, query);
 }
 
 static void GL_APIENTRY discard(GLenum target, GLsizei count, const GLenum *names)
 {
     use(GN_CAN_DISCARD);
-    real.glDiscardFramebufferEXT(target, count, names);
+    between_real.glDiscardFramebufferEXT(target, count, names);
 }
 
 static gn_proc replace(const char *name, gn_proc found)
 {
-    static const struct {
-        const char *name;
-        gn_proc function;
-    } watched[] = {{"glStencilOp", (gn_proc)stencil_op},
-                   {"glStencilOpSeparate", (gn_proc)stencil_op_separate},
-                   {"glEnable", (gn_proc)enable},
-                   {"glDisable", (gn_proc)disable},
-                   {"glClear", (gn_proc)clear},
-                   {"glBlendEquation", (gn_proc)blend_equation},
-                   {"glBlendFunc", (gn_proc)blend_func},
-                   {"glBlendFuncSeparate", (gn_proc)blend_func_separate},
-                   {"glShaderSource", (gn_proc)shader_source},
-                   {"glUniformMatrix4fv", (gn_proc)uniform_matrix},
-                   {"glDrawElements", (gn_proc)draw_elements},
-                   {"glTexImage2D", (gn_proc)tex_image},
-                   {"glFramebufferTexture2D", (gn_proc)framebuffer_texture},
-                   {"glRenderbufferStorage", (gn_proc)renderbuffer_storage},
-                   {"glBeginQueryEXT", (gn_proc)begin_query},
-                   {"glDiscardFramebufferEXT", (gn_proc)discard}};
+    static const between list[] = {{"glStencilOp", (gn_proc)stencil_op},
+                                   {"glStencilOpSeparate", (gn_proc)stencil_op_separate},
+                                   {"glEnable", (gn_proc)enable},
+                                   {"glDisable", (gn_proc)disable},
+                                   {"glClear", (gn_proc)clear},
+                                   {"glBlendEquation", (gn_proc)blend_equation},
+                                   {"glBlendFunc", (gn_proc)blend_func},
+                                   {"glBlendFuncSeparate", (gn_proc)blend_func_separate},
+                                   {"glShaderSource", (gn_proc)shader_source},
+                                   {"glUniformMatrix4fv", (gn_proc)uniform_matrix},
+                                   {"glDrawElements", (gn_proc)draw_elements},
+                                   {"glTexImage2D", (gn_proc)tex_image},
+                                   {"glFramebufferTexture2D", (gn_proc)framebuffer_texture},
+                                   {"glRenderbufferStorage", (gn_proc)renderbuffer_storage},
+                                   {"glBeginQueryEXT", (gn_proc)begin_query},
+                                   {"glDiscardFramebufferEXT", (gn_proc)discard}};
 
-#define GN_GL_PROC(function, parameters, arguments)                                                                    \
-    if (strcmp(name, #function) == 0)                                                                                  \
-        real.function = (void(GL_APIENTRY *) parameters)found;
-#define GN_GL_FUNC(type, function, parameters, arguments)                                                              \
-    if (strcmp(name, #function) == 0)                                                                                  \
-        real.function = (type(GL_APIENTRY *) parameters)found;
-#include "gl_funcs.h"
-#undef GN_GL_PROC
-#undef GN_GL_FUNC
-    for (size_t i = 0; found && i < sizeof watched / sizeof watched[0]; i++)
-        if (strcmp(name, watched[i].name) == 0)
-            return watched[i].function;
-    return found;
+    return between_take(name, found, list, sizeof list / sizeof list[0]);
 }
 
 /* Everything from start to a mask; a frame that is refused ends there. Returns stage_plan()'s status. */

@@ -1,5 +1,6 @@
 /* test_lies.c - a real driver behind a function table that lies, one lie at a time: the proof finds it out and says what
  * it saw, and the frame has the same bits as the truthful driver's all the same, or is refused in words. */
+#include "between.h"
 #include "gn_test.h"
 #include "stage.h"
 
@@ -9,8 +10,7 @@
 
 enum { WIDTH = 160, HEIGHT = 120 };
 
-static const char *lie; /* the one told now */
-static gn_gl real;
+static const char *lie;              /* the one told now */
 static GLenum texture_type, storage; /* of the last glTexImage2D and glRenderbufferStorage */
 static GLuint depth_holder;          /* the renderbuffer that was attached first */
 
@@ -30,17 +30,18 @@ static GLenum dropped_wrap(GLenum operation, int two_sided, int fails)
 
 static void GL_APIENTRY stencil_op(GLenum fail, GLenum depth_fail, GLenum pass)
 {
-    real.glStencilOp(dropped_wrap(fail, 0, 0), dropped_wrap(depth_fail, 0, 1), dropped_wrap(pass, 0, 0));
+    between_real.glStencilOp(dropped_wrap(fail, 0, 0), dropped_wrap(depth_fail, 0, 1), dropped_wrap(pass, 0, 0));
 }
 
 static void GL_APIENTRY stencil_op_separate(GLenum face, GLenum fail, GLenum depth_fail, GLenum pass)
 {
     if (lies("back state is ignored")) {
         if (face != GL_BACK)
-            real.glStencilOp(fail, depth_fail, pass);
+            between_real.glStencilOp(fail, depth_fail, pass);
         return;
     }
-    real.glStencilOpSeparate(face, dropped_wrap(fail, 1, 0), dropped_wrap(depth_fail, 1, 1), dropped_wrap(pass, 1, 0));
+    between_real.glStencilOpSeparate(face, dropped_wrap(fail, 1, 0), dropped_wrap(depth_fail, 1, 1),
+                                     dropped_wrap(pass, 1, 0));
 }
 
 static void GL_APIENTRY enable(GLenum name)
@@ -48,27 +49,27 @@ static void GL_APIENTRY enable(GLenum name)
     if ((lies("stencil is null") && name == GL_STENCIL_TEST) || (lies("clamp is ignored") && name == 0x864F) ||
         (lies("depth is null") && name == GL_DEPTH_TEST) || (lies("scissor is ignored") && name == GL_SCISSOR_TEST))
         return;
-    real.glEnable(name);
+    between_real.glEnable(name);
 }
 
 static void GL_APIENTRY blend_equation(GLenum mode)
 {
     if ((lies("subtract is missing") && mode == 0x800B) || (lies("min and max are missing") && mode < 0x800A))
         mode = GL_FUNC_ADD;
-    real.glBlendEquation(mode);
+    between_real.glBlendEquation(mode);
 }
 
 static void GL_APIENTRY blend_func_separate(GLenum source, GLenum destination, GLenum source_a, GLenum destination_a)
 {
-    real.glBlendFuncSeparate(lies("alpha reads as 1") && source == GL_DST_ALPHA ? GL_ONE : source, destination,
-                             source_a, destination_a);
+    between_real.glBlendFuncSeparate(lies("alpha reads as 1") && source == GL_DST_ALPHA ? GL_ONE : source, destination,
+                                     source_a, destination_a);
 }
 
 static void GL_APIENTRY uniform4fv(GLint location, GLsizei count, const GLfloat *value)
 {
     static const GLfloat up[4] = {128.0f / 255.0f, 128.0f / 255.0f, 128.0f / 255.0f, 128.0f / 255.0f};
 
-    real.glUniform4fv(location, count, lies("halves round up") && value[0] == 127.0f / 255.0f ? up : value);
+    between_real.glUniform4fv(location, count, lies("halves round up") && value[0] == 127.0f / 255.0f ? up : value);
 }
 
 /* Vertex shaders end by pushing what lies at infinity out; fragment shaders have words exchanged. */
@@ -101,28 +102,28 @@ static void GL_APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar
                                                "gl_Position.z = 1.0000002 * gl_Position.w; }\n"
                                              : "void main() { told_main(); }\n");
     parts = (const GLchar *const[]){text};
-    real.glShaderSource(shader, 1, parts, NULL);
+    between_real.glShaderSource(shader, 1, parts, NULL);
     (void)lengths;
 }
 
 static void GL_APIENTRY draw_elements(GLenum mode, GLsizei count, GLenum type, const void *indices)
 {
     if (!(lies("indices are cut") && type == GL_UNSIGNED_INT))
-        real.glDrawElements(mode, count, type, indices);
+        between_real.glDrawElements(mode, count, type, indices);
 }
 
 static void GL_APIENTRY tex_image(GLenum target, GLint level, GLint internal, GLsizei width, GLsizei height,
                                   GLint border, GLenum format, GLenum type, const void *pixels)
 {
     texture_type = type;
-    real.glTexImage2D(target, level, internal, width, height, border, format, type, pixels);
+    between_real.glTexImage2D(target, level, internal, width, height, border, format, type, pixels);
 }
 
 static void GL_APIENTRY renderbuffer_storage(GLenum target, GLenum format, GLsizei width, GLsizei height)
 {
     storage = format;
     depth_holder = 0;
-    real.glRenderbufferStorage(target, format, width, height);
+    between_real.glRenderbufferStorage(target, format, width, height);
 }
 
 static void GL_APIENTRY framebuffer_renderbuffer(GLenum target, GLenum attachment, GLenum kind, GLuint name)
@@ -130,13 +131,13 @@ static void GL_APIENTRY framebuffer_renderbuffer(GLenum target, GLenum attachmen
     if (lies("depth is not shared") && name == depth_holder)
         return;
     depth_holder = attachment == GL_DEPTH_ATTACHMENT && storage == GL_DEPTH_COMPONENT16 ? name : 0;
-    real.glFramebufferRenderbuffer(target, attachment, kind, name);
+    between_real.glFramebufferRenderbuffer(target, attachment, kind, name);
 }
 
 static void GL_APIENTRY framebuffer_texture(GLenum target, GLenum attachment, GLenum kind, GLuint name, GLint level)
 {
     if (!(lies("depth textures stay empty") && attachment == GL_DEPTH_ATTACHMENT))
-        real.glFramebufferTexture2D(target, attachment, kind, name, level);
+        between_real.glFramebufferTexture2D(target, attachment, kind, name, level);
 }
 
 static GLenum GL_APIENTRY framebuffer_status(GLenum target)
@@ -147,57 +148,42 @@ static GLenum GL_APIENTRY framebuffer_status(GLenum target)
         (lies("rgba4 is incomplete") && texture_type == GL_UNSIGNED_SHORT_4_4_4_4) ||
         (lies("rgb5a1 is incomplete") && texture_type == GL_UNSIGNED_SHORT_5_5_5_1))
         return GL_FRAMEBUFFER_UNSUPPORTED;
-    return real.glCheckFramebufferStatus(target);
+    return between_real.glCheckFramebufferStatus(target);
 }
 
 static void GL_APIENTRY query_result(GLuint query, GLenum name, GLuint *value)
 {
-    real.glGetQueryObjectuivEXT(query, name, value);
+    between_real.glGetQueryObjectuivEXT(query, name, value);
     if (lies("queries never end") && name == 0x8867)
         *value = 0;
 }
 
 static void GL_APIENTRY discard(GLenum target, GLsizei count, const GLenum *names)
 {
-    real.glDiscardFramebufferEXT(target, count, names);
+    between_real.glDiscardFramebufferEXT(target, count, names);
     if (lies("discard takes colour too"))
-        real.glClear(GL_COLOR_BUFFER_BIT);
+        between_real.glClear(GL_COLOR_BUFFER_BIT);
 }
 
 static gn_proc replace(const char *name, gn_proc found)
 {
-    static const struct {
-        const char *name;
-        gn_proc function;
-    } told[] = {{"glStencilOp", (gn_proc)stencil_op},
-                {"glStencilOpSeparate", (gn_proc)stencil_op_separate},
-                {"glEnable", (gn_proc)enable},
-                {"glBlendEquation", (gn_proc)blend_equation},
-                {"glBlendFuncSeparate", (gn_proc)blend_func_separate},
-                {"glUniform4fv", (gn_proc)uniform4fv},
-                {"glShaderSource", (gn_proc)shader_source},
-                {"glDrawElements", (gn_proc)draw_elements},
-                {"glTexImage2D", (gn_proc)tex_image},
-                {"glRenderbufferStorage", (gn_proc)renderbuffer_storage},
-                {"glFramebufferRenderbuffer", (gn_proc)framebuffer_renderbuffer},
-                {"glFramebufferTexture2D", (gn_proc)framebuffer_texture},
-                {"glCheckFramebufferStatus", (gn_proc)framebuffer_status},
-                {"glGetQueryObjectuivEXT", (gn_proc)query_result},
-                {"glDiscardFramebufferEXT", (gn_proc)discard}};
+    static const between list[] = {{"glStencilOp", (gn_proc)stencil_op},
+                                   {"glStencilOpSeparate", (gn_proc)stencil_op_separate},
+                                   {"glEnable", (gn_proc)enable},
+                                   {"glBlendEquation", (gn_proc)blend_equation},
+                                   {"glBlendFuncSeparate", (gn_proc)blend_func_separate},
+                                   {"glUniform4fv", (gn_proc)uniform4fv},
+                                   {"glShaderSource", (gn_proc)shader_source},
+                                   {"glDrawElements", (gn_proc)draw_elements},
+                                   {"glTexImage2D", (gn_proc)tex_image},
+                                   {"glRenderbufferStorage", (gn_proc)renderbuffer_storage},
+                                   {"glFramebufferRenderbuffer", (gn_proc)framebuffer_renderbuffer},
+                                   {"glFramebufferTexture2D", (gn_proc)framebuffer_texture},
+                                   {"glCheckFramebufferStatus", (gn_proc)framebuffer_status},
+                                   {"glGetQueryObjectuivEXT", (gn_proc)query_result},
+                                   {"glDiscardFramebufferEXT", (gn_proc)discard}};
 
-#define GN_GL_PROC(function, parameters, arguments)                                                                    \
-    if (strcmp(name, #function) == 0)                                                                                  \
-        real.function = (void(GL_APIENTRY *) parameters)found;
-#define GN_GL_FUNC(type, function, parameters, arguments)                                                              \
-    if (strcmp(name, #function) == 0)                                                                                  \
-        real.function = (type(GL_APIENTRY *) parameters)found;
-#include "gl_funcs.h"
-#undef GN_GL_PROC
-#undef GN_GL_FUNC
-    for (size_t i = 0; found && i < sizeof told / sizeof told[0]; i++)
-        if (strcmp(name, told[i].name) == 0)
-            return told[i].function;
-    return found;
+    return between_take(name, found, list, sizeof list / sizeof list[0]);
 }
 
 /* What a scene's first light's mask looks like while a lie is told. Returns stage_plan()'s status. */
