@@ -1,9 +1,9 @@
 /* ends.c - where shadow volumes end that may not reach infinity.
  *
  * An orthographic camera cannot image a vertex at infinity, a camera with a finite far plane of its own clips it, and a
- * board may. Volumes then end on planes (DESIGN.md, decision 3): an orthographic camera's depth range is widened to hold
- * them, which costs precision; in front of a finite far plane there is only so much room. So planes are chosen that end
- * volumes near.
+ * board may. Volumes then end (DESIGN.md, decision 3): an orthographic camera's depth range is widened to hold
+ * them, which costs precision; in front of a finite far plane there is only so much room. So they end
+ * as near as may be.
  *
  * A plane p > 0 on the side of everything visible that receives may end the volume of a triangle when the light is on
  * that side too and the triangle lies strictly between the plane and the parallel to it through the light: then each
@@ -341,7 +341,7 @@ static int choose_each(gni_ends *ends, const search *s, const int8_t *casting, u
 }
 
 /* The distance from the light to a triangle of view space: to its plane, if it is hit at right angles inside, else to an
- * edge (Ericson 2005, section 5.1, treats the cases alike). */
+ * edge. */
 static double distance_to(const double light[3], double v[3][3])
 {
     double nearest = INFINITY, n[3], at[3][3], inside = 1.0, area = 0.0, height = 0.0;

@@ -348,11 +348,13 @@ static gn_result add_volumes(draft *d, uint32_t light)
         if (!(object->flags & GN_CASTS))
             continue;
         gni_model_view(model_view, &d->scene->camera, object->model, object->mesh->info.centre);
-        gni_find_case(&d->at_hand, &d->view_of_camera, &object->mesh->info, model_view, light_view);
-        if (about->method == GN_METHOD_STENCIL && !(d->at_hand.seen & 4))
-            continue;
+        if (about->method == GN_METHOD_STENCIL) {
+            gni_find_case(&d->at_hand, &d->view_of_camera, &object->mesh->info, model_view, light_view);
+            if (!(d->at_hand.seen & 4))
+                continue;
+        }
         gn_object_casting(object, &d->scene->lights[light], d->casting);
-        for (uint32_t t = 0; t < object->mesh->info.triangle_count; t++)
+        for (uint32_t t = 0; !layout->wrap && t < object->mesh->info.triangle_count; t++)
             casting += d->casting[t] != 0;
         if (gni_must_end(d->scene))
             result = add_ended(d, light, i, light_view);

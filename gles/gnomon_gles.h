@@ -100,8 +100,9 @@ size_t gn_gles_save_target(const gn_gles *gl, const gn_target *target, char *tex
 gn_result gn_gles_upload(gn_gles *gl, const gn_mesh *mesh);
 void gn_gles_unload(gn_gles *gl, const gn_mesh *mesh); /* does nothing for one that is not there */
 
-/* Starts a frame: checks that every caster of the plan is uploaded and sends the plan's indices. The plan must stay
- * until the walk has ended. Returns GN_OK, GN_E_ARG. */
+/* Starts a frame: checks that every caster of the plan is uploaded and sends the plan's indices. The first plan that counts
+ * one side at a time also has a shader compiled. The plan must stay until the walk has ended. Returns GN_OK; GN_E_ARG;
+ * GN_E_DEVICE when that shader is refused. */
 gn_result gn_gles_begin(gn_gles *gl, const gn_plan *plan);
 
 /* Does what the plan says up to the next step that is the host's. Returns 1 with that step, or 0 at the frame's end. */

@@ -3,8 +3,8 @@
  * Counting (Everitt 2002, section 3.3): a volume's surface faces outward. z-fail counts what lies behind the visible
  * surface, back faces up and front faces down; z-pass what lies before it, the other way round. Depth is compared LESS: a
  * light cap that is the visible surface itself counts as behind it, and that is why a surface is unlit on the side
- * turned away from the light and lit on the other. Where stencil is two-sided one draw counts both ways, else two culled
- * draws do. Wrapping keeps their order from mattering; counts that stop at the ends start in the middle (the plan's
+ * turned away from the light and lit on the other. Where stencil is two-sided one draw counts both ways, else two draws
+ * do, a side each. Wrapping keeps their order from mattering; counts that stop at the ends start in the middle (the plan's
  * layout says where, and how far they reach).
  *
  * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other
@@ -110,20 +110,22 @@ static int make_sided(gn_gles *g)
 
 gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
 {
+    int clamps = 0;
+
     if (!g || !plan)
         return gn_fail(g ? g->context : NULL, GN_E_ARG, "gn_gles_begin: NULL argument");
     if (g->forgotten)
         return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the GL context was lost");
-    for (uint32_t i = 0; i < plan->record_count; i++)
+    for (uint32_t i = 0; i < plan->record_count; i++) {
         if (!gni_find_upload(g, plan->objects[plan->records[i].object].mesh))
             return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the mesh of object %lu was not uploaded",
                            (unsigned long)plan->records[i].object);
+        clamps |= plan->records[i].far_end == GN_FAR_CLAMPED;
+    }
     if (plan->stencil.discard && !g->sided && !make_sided(g))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses the shader that discards: see the log");
     g->plan = plan;
-    g->clamps = 0;
-    for (uint32_t i = 0; i < plan->record_count; i++)
-        g->clamps |= plan->records[i].far_end == GN_FAR_CLAMPED;
+    g->clamps = clamps;
     g->at = 0;
     if (plan->index_count) {
         g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
