@@ -60,9 +60,19 @@ static void choose_layout(const gn_scene *s, gni_choice *choice)
     layout->reference = layout->wrap ? 0 : MIDDLE;
     layout->low = layout->wrap ? 0 : -MIDDLE;
     layout->high = layout->wrap ? 255 : 255 - MIDDLE;
+    layout->bits = 8;
     if (!layout->wrap)
         say(choice, "; counts from %d to %d about %d, since %s %s", layout->low, layout->high, layout->reference,
             gn_capability_name(GN_CAN_STENCIL_WRAP), gni_why_not(t, GN_CAN_STENCIL_WRAP));
+}
+
+void gni_split_layout(gn_stencil_layout *layout)
+{
+    layout->bits--;
+    layout->flag = 1 << layout->bits;
+    layout->reference /= 2;
+    layout->low /= 2;
+    layout->high /= 2;
 }
 
 static void choose_far(const gn_scene *s, gni_choice *choice)

@@ -48,7 +48,7 @@ static void cut(gn_mesh *mesh, uint32_t *stamp, uint32_t *local, gn_chunk *chunk
     *vertex_count = total;
 }
 
-static uint32_t chunk_of(const gn_mesh *mesh, uint32_t triangle)
+uint32_t gni_chunk_of(const gn_mesh *mesh, uint32_t triangle)
 {
     uint32_t low = 0, high = mesh->info.chunk_count - 1;
 
@@ -82,7 +82,7 @@ static gn_result sort_edges(gn_mesh *mesh)
     memset(edge_at, 0, ((size_t)chunks + 1) * sizeof *edge_at);
     memset(use_at, 0, ((size_t)chunks + 1) * sizeof *use_at);
     for (uint32_t e = 0; e < edges; e++) {
-        const uint32_t c = chunk_of(mesh, (mesh->uses[mesh->edge_uses[e]] & GNI_USE_CORNER) / 3);
+        const uint32_t c = gni_chunk_of(mesh, (mesh->uses[mesh->edge_uses[e]] & GNI_USE_CORNER) / 3);
 
         edge_at[c + 1]++;
         use_at[c + 1] += mesh->edge_uses[e + 1] - mesh->edge_uses[e];
@@ -92,7 +92,7 @@ static gn_result sort_edges(gn_mesh *mesh)
         use_at[c + 1] += use_at[c];
     }
     for (uint32_t e = 0; e < edges; e++) {
-        const uint32_t c = chunk_of(mesh, (mesh->uses[mesh->edge_uses[e]] & GNI_USE_CORNER) / 3);
+        const uint32_t c = gni_chunk_of(mesh, (mesh->uses[mesh->edge_uses[e]] & GNI_USE_CORNER) / 3);
         const uint32_t n = mesh->edge_uses[e + 1] - mesh->edge_uses[e];
 
         edge_uses[edge_at[c]++] = use_at[c];
@@ -108,6 +108,10 @@ static gn_result sort_edges(gn_mesh *mesh)
     gni_free(context, mesh->uses);
     mesh->edge_uses = edge_uses;
     mesh->uses = uses;
+    memset(mesh->edge_of, 0xff, 3 * (size_t)mesh->info.triangle_count * sizeof *mesh->edge_of);
+    for (uint32_t e = 0; e < edges; e++)
+        for (uint32_t u = edge_uses[e]; u < edge_uses[e + 1]; u++)
+            mesh->edge_of[uses[u] & GNI_USE_CORNER] = e;
     return GN_OK;
 }
 
@@ -126,8 +130,9 @@ gn_result gni_make_chunks(gn_mesh *mesh)
         mesh->chunk_edges = gni_alloc(context, (size_t)info->chunk_count + 1, sizeof *mesh->chunk_edges);
         mesh->chunk_vertices = gni_alloc(context, chunk_vertex_count, sizeof *mesh->chunk_vertices);
         mesh->corners = gni_alloc(context, info->triangle_count, 3 * sizeof *mesh->corners);
+        mesh->edge_of = gni_alloc(context, info->triangle_count, 3 * sizeof *mesh->edge_of);
     }
-    if (mesh->chunks && mesh->chunk_edges && mesh->chunk_vertices && mesh->corners) {
+    if (mesh->chunks && mesh->chunk_edges && mesh->chunk_vertices && mesh->corners && mesh->edge_of) {
         cut(mesh, stamp, local, mesh->chunks, &info->chunk_count, mesh->chunk_vertices, &chunk_vertex_count);
         result = sort_edges(mesh);
     }

@@ -36,7 +36,8 @@ extern "C" {
     F(GN_CAN_FRAGMENT_HIGHP, "fragment-highp", "highp in fragment shaders, 16 bits of mantissa and more")              \
     F(GN_CAN_PARTIAL_CLEAR, "partial-clear", "clears under scissor and write masks")                                   \
     F(GN_CAN_TIMER_QUERY, "timer-query", "the time that drawing takes")                                                \
-    F(GN_CAN_DISCARD, "discard", "buffers dropped after use")
+    F(GN_CAN_DISCARD, "discard", "buffers dropped after use")                                                          \
+    F(GN_CAN_DEPTH_BOUNDS, "depth-bounds", "pixels whose depth is out of bounds are left out")
 
 typedef enum gn_capability {
 #define GN_CAPABILITY_CONSTANT(constant, name, summary) constant,

@@ -34,6 +34,8 @@ struct gn_mesh {
     double *planes;      /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
     uint32_t *edge_uses; /* [edge_count + 1]: where an edge's uses start; edges stand in order of chunks */
     uint32_t *uses;
+    uint32_t
+        *edge_of; /* [triangle_count][3]: the edge from each corner to the next; GNI_NONE of degenerate triangles */
     uint32_t *chunk_edges; /* [chunk_count + 1]: where a chunk's edges start */
     gni_part *parts;
     uint32_t *part_triangles; /* sorted by part; degenerate triangles are in none */
@@ -58,6 +60,19 @@ int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part);
 
 /* chunks.c: 16-bit indices; sorts the edges by chunk. */
 gn_result gni_make_chunks(gn_mesh *mesh);
+uint32_t gni_chunk_of(const gn_mesh *mesh, uint32_t triangle);
+
+/* The corner from which the edge's first casting use starts; GNI_NONE where there is none. */
+static inline uint32_t gni_first_caster(const gn_mesh *mesh, uint32_t edge, const int8_t *casting)
+{
+    for (uint32_t u = mesh->edge_uses[edge]; u < mesh->edge_uses[edge + 1]; u++) {
+        const uint32_t corner = mesh->uses[u] & GNI_USE_CORNER;
+
+        if (casting[corner / 3])
+            return corner;
+    }
+    return GNI_NONE;
+}
 
 /* How many times, and in which sign, the casting chain runs along an edge from its lower to its higher vertex. */
 static inline int32_t gni_edge_weight(const gn_mesh *mesh, uint32_t edge, const int8_t *casting)
@@ -77,12 +92,18 @@ typedef struct gni_stream {
     uint32_t sides, dark_cap, light_cap, turned_cap; /* indices of each, in this order */
 } gni_stream;
 
-/* At most this many indices for all chunks of a caster, whatever the light. */
-size_t gni_volume_bound(const gn_mesh *mesh);
+/* At most this many indices for a triangle: three sides of two triangles each, and both caps. */
+#define GNI_MOST_INDICES 24u
 
-/* parts: which of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP. converging: all far vertices are one point (a directional
- * light to infinity): sides are single triangles and the dark cap has no area. Returns the indices written. */
-uint32_t gni_volume_indices(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, unsigned parts, int converging,
+enum {
+    GNI_CONVERGING =
+        8,       /* beside GN_SIDES ...: all far vertices are one point (a directional light to infinity): sides are
+                           single triangles and the dark cap has no area */
+    GNI_FAN = 16 /* the dark cap is a fan about the far vertex `apex`: of a mesh of one chunk */
+};
+
+/* Returns the indices written. */
+uint32_t gni_volume_indices(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, unsigned parts, uint32_t apex,
                             uint16_t *out, gni_stream *stream);
 
 /* camera.c */
@@ -109,6 +130,8 @@ typedef struct gni_choice {
     char reason[256]; /* as in gn_plan_light */
 } gni_choice;
 
+/* Counts of one bit less, and a flag above them. */
+void gni_split_layout(gn_stencil_layout *layout);
 /* The method that is meant and its way here. GN_E_DEVICE when the target lacks what it needs. */
 gn_result gni_choose(gn_context *context, const gn_scene *scene, gni_choice *choice);
 /* Whether volumes may not reach infinity unless they are clamped. */
@@ -116,21 +139,84 @@ int gni_must_end(const gn_scene *scene);
 /* "is hidden", "fails its proof" or "is not offered". */
 const char *gni_why_not(const gn_target *target, gn_capability capability);
 
+/* explain.c: a word for machines, "" for what is not skipped. */
+const char *gni_skip_name(gn_skip skip);
+
+/* hull.c: convex bodies of view space. */
+#define GNI_MARGIN                                                                                                     \
+    1e-6 /* of the greatest coordinate: double precision leaves a wide gap to it, float and pixels a small one */
+
+typedef struct gni_hull {
+    double points[9][3];
+    int point_count;
+    double directions[8][3]; /* in which it goes on without end */
+    int direction_count;
+    double edges[3][3]; /* of a box: from its first corner */
+} gni_hull;
+
+void gni_cross(double out[3], const double a[3], const double b[3]);
+double gni_dot(const double a[3], const double b[3]);
+/* The box around a mesh, in view space. */
+void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16]);
+/* The box and all that is behind it as the light sees it. */
+void gni_volume_hull(gni_hull *out, const gni_hull *box, const double light[4]);
+/* Whether the axis separates two bodies, of which at most one is without end. */
+int gni_separates(const double axis[3], const gni_hull *a, const gni_hull *b);
+/* 1: they are apart. 0: not, or not sure. */
+int gni_volume_misses(const gni_hull *volume, const double light[4], const gni_hull *box);
+/* Whether all of it lies where the plane is negative. */
+int gni_is_outside(const gni_hull *hull, const double plane[4]);
+int gni_light_is_outside(const gni_hull *box, const double light[4]);
+
+/* fan.c: a welded vertex about which the dark cap may be a fan that covers no pixel more than the cap would; GNI_NONE
+ * where there is none. light: view space, outside the caster's box. */
+uint32_t gni_find_apex(const gn_mesh *mesh, const int8_t *casting, const double model_view[16], const double light[4],
+                       const gni_hull *box);
+
 /* cases.c: how a caster is counted. */
 typedef struct gni_view {
-    double near_corners[4][3]; /* view space: of the near rectangle */
-    double planes[5][4];       /* its four sides and the near plane; > 0 inside */
+    gni_hull near_rectangle;
+    double planes[5][4]; /* its four sides and the near plane; > 0 inside */
 } gni_view;
+
+enum { GNI_SEES_CASTER = 1, GNI_SEES_FAR = 2, GNI_SEES_VOLUME = 4 }; /* FAR: its image at infinity */
 
 typedef struct gni_case {
     int number;    /* McGuire's: 1 before what is seen, 2 behind it and the caster out of view, 3 behind it */
-    unsigned seen; /* may be in view: 1 the caster, 2 its image at infinity, 4 its volume */
+    unsigned seen; /* what of it may be in view */
+    int is_drawn;  /* to depth, by the host: all of it that casts */
 } gni_case;
 
-void gni_make_view(gni_view *view, const gn_camera *camera);
+/* What is seen through the scissor. */
+void gni_make_view(gni_view *view, const gn_camera *camera, const gn_target *target, const uint32_t scissor[4]);
+int gni_may_be_seen(const gni_view *view, const gni_hull *hull);
 /* light: view space. Conservative in all: what is not sure touches, or is seen. */
-void gni_find_case(gni_case *out, const gni_view *view, const gn_mesh_info *info, const double model_view[16],
+void gni_find_case(gni_case *out, const gni_view *view, const gni_hull *box, const gni_hull *volume,
                    const double light[4]);
+
+/* bounds.c: what a light can reach. */
+#define GNI_BOUND_PLANES 15
+
+typedef struct gni_bounds {
+    double light[4];                     /* view space */
+    double reach;                        /* INFINITY: no bound */
+    double planes[GNI_BOUND_PLANES][4];  /* view space: of its cone and box; nothing is lit where one is negative */
+    uint32_t plane_count, caster_planes; /* the first ones: nor does anything outside cast on what is lit */
+    uint32_t scissor[4];
+    double distances[2]; /* view distances between which it lights; [1] may be INFINITY */
+    gn_skip skip;        /* GN_SKIP_OUT_OF_VIEW, GN_SKIP_FAINT or GN_SKIP_NOT */
+} gni_bounds;
+
+/* Of a light that no bound is known of, or asked for. */
+void gni_no_bounds(gni_bounds *out, const gn_scene *scene, const double light[4]);
+/* view: from world to view space. */
+void gni_find_bounds(gni_bounds *out, const gn_scene *scene, uint32_t light_index, const double light[4],
+                     const double view[16]);
+/* Whether something may be lit there, or may cast on what is lit. */
+int gni_may_be_lit(const gni_bounds *bounds, const gni_hull *box);
+int gni_may_cast(const gni_bounds *bounds, const gni_hull *box);
+/* The most that the light adds to a pixel of what lies in the box; INFINITY where its color is not given. */
+double gni_most_light(const gni_bounds *bounds, const gn_light *light, const gni_hull *box);
 
 /* ends.c: where volumes end that must end. */
 #define GNI_MAX_ENDS 250 /* end planes of one caster for one light; a byte names one */

@@ -103,7 +103,7 @@ typedef struct gn_mesh_info {
     uint32_t solid_part_count; /* closed, wound alike, not passing through themselves: only their lit triangles cast */
     uint32_t outward_part_count; /* solid parts whose front faces look outward */
     uint32_t chunk_count;
-    int planar;                     /* all triangles lie in one plane */
+    int planar;                     /* 1: all triangles lie in one plane; 2: and are wound alike */
     const float *positions;         /* [vertex_count][3], welded, less the centre */
     const uint32_t *triangles;      /* [triangle_count][3], into positions */
     const gn_chunk *chunks;         /* [chunk_count] */
@@ -112,7 +112,7 @@ typedef struct gn_mesh_info {
 
 /* Copies what it needs. Vertices are welded by exact position (-0 equals 0). Degenerate and duplicate triangles are
  * lawful; a mesh may have no triangle at all. Returns GN_OK, GN_E_ARG, GN_E_MESH, GN_E_MEMORY; *mesh is NULL unless
- * GN_OK. Time O(triangles log triangles); holds about 90 bytes a triangle. */
+ * GN_OK. Time O(triangles log triangles); holds about 100 bytes a triangle. */
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **mesh);
 void gn_mesh_destroy(gn_mesh *mesh);
 const gn_mesh_info *gn_mesh_get_info(const gn_mesh *mesh);
@@ -162,25 +162,42 @@ typedef struct gn_camera {
 
 typedef enum gn_light_kind { GN_LIGHT_POINT, GN_LIGHT_SPOT, GN_LIGHT_DIRECTIONAL } gn_light_kind;
 
+/* Start from {0}: what bounds a light is optional, and a zero there says that nothing does. The method stencil leaves out
+ * what lies outside the bounds, so they must hold: nothing outside may be lit. */
 typedef struct gn_light {
     gn_light_kind kind;
     double position[3]; /* world; point and spot */
-    double towards[3];  /* world, towards a directional light; any length but 0 */
+    double towards
+        [3];      /* world, any length but 0: towards a directional light; of a spot with a cone, where its light comes
+                           from: against its axis */
+    double cone;  /* spot: half the angle of its cone, radians, less than pi / 2 [no cone] */
+    double range; /* point and spot: nothing farther is lit [unlimited] */
+    /* The most that it adds to a pixel where its attenuation is 1, by channel, 1 being full: its reach is the distance from
+     * which on every channel stays under half a step of the target's bits, which then add nothing [unlimited] */
+    double color[3];
+    double attenuation[3];         /* k of 1 / (k[0] + k[1] d + k[2] d^2) at the distance d [1: none] */
+    double box_min[3], box_max[3]; /* world: nothing outside is lit, by a light of any kind [no box] */
+    const uint32_t *exempt;        /* [exempt_count] objects that do not cast in its light; borrowed for the call */
+    uint32_t exempt_count;
 } gn_light;
 
+/* A light with extent as `count` lights within `radius` of it, each with as much of its color, at jittered places that are
+ * the same in every frame (McGuire 2003, section 4). radius: of a directional light, of its disc at distance 1 (the sun's is
+ * 0.0047). Bounds but the color, and the list of the exempt, are copied. out: [count]. Returns GN_OK, GN_E_ARG. */
+gn_result gn_light_soften(gn_context *context, const gn_light *light, double radius, uint32_t count, gn_light *out);
+
 enum {
-    GN_CASTS = 1,    /* its triangles block light */
-    GN_RECEIVES = 2, /* it is drawn under the mask; without: lit as if nothing stood in the way */
-    GN_DRAWN =
-        4 /* every one of its triangles that the eye could see is drawn to depth: from both sides, or single-sided
-                        where all parts are solid and wound outward; not when some are cut by alpha or left out */
+    GN_CASTS = 1,      /* its triangles block light */
+    GN_RECEIVES = 2,   /* it is drawn under the mask; without: lit as if nothing stood in the way */
+    GN_DRAWN = 4,      /* every triangle whose front the eye sees is drawn to depth: none is cut by alpha or left out */
+    GN_DRAWN_BACKS = 8 /* and so is every one whose back it sees. With both flags z-pass does without its light cap */
 };
 
 /* A mesh in the world: caster, receiver, or both. Start from {0}. */
 typedef struct gn_object {
     const gn_mesh *mesh; /* borrowed while the plan lives */
     double model[16];    /* object to world; last row 0 0 0 1 */
-    unsigned flags;      /* of GN_CASTS, GN_RECEIVES, GN_DRAWN */
+    unsigned flags;      /* of GN_CASTS, GN_RECEIVES, GN_DRAWN, GN_DRAWN_BACKS */
 } gn_object;
 
 /* gn_facing() and gn_casting() for an object in the world: [triangle_count]. A model matrix without inverse, which
@@ -227,13 +244,16 @@ const gn_method_info *gn_method_describe(gn_method method);
  * otherwise 0. */
 gn_method gn_method_by_name(const char *name, int *one_sided);
 
-/* Of a stencil that tells lit from shadowed by a count (DESIGN.md, decision 10). */
+/* Of a stencil that tells lit from shadowed by a count in its low bits (DESIGN.md, decision 10). A pixel is lit where the
+ * whole stencil equals the reference. */
 typedef struct gn_stencil_layout {
     int two_sided; /* 0: every caster is drawn twice, one side of its volume at a time, what counts up first */
     int discard;   /* then the other side is discarded by gl_FrontFacing; 0: culled, which may lose slivers */
     int wrap;      /* counts go round at 256; 0: they stop at the ends */
     int reference; /* the value of a pixel that no volume holds; buffers are cleared to it */
     int low, high; /* counts, from the reference, that are kept. Wrapping: of the sum; else also on the way to it */
+    int bits;      /* of the count */
+    int flag;      /* the bit above: set where an earlier batch left a count; 0 where there is one batch */
 } gn_stencil_layout;
 
 /* How the far end of a volume survives clipping at the far plane. */
@@ -254,6 +274,12 @@ typedef struct gn_scene {
     gn_target target;
     gn_method method;
     int one_sided; /* 1: one side of volumes at a time, even where two-sided stencil is proven */
+    /* 1: of coincident surfaces only the first that is drawn is lit, by counting in the light's pass (Everitt 2002, section
+     * 6, step E); otherwise their light adds up where their depths are the same */
+    int blend_once;
+    /* A choice: lights that add no more than this to any pixel are left out, by the method stencil. Their bounds, colors and
+     * attenuations must be given; gn_plan_light.possible_error says what may be missing [0: none is left out] */
+    double least_light;
 } gn_scene;
 
 enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4 };
@@ -266,8 +292,9 @@ typedef struct gn_record {
     unsigned parts; /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: those with triangles */
     uint32_t first_index;
     uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
-    int mcguire_case;                                                       /* 1: by z-pass; 2, 3: by z-fail */
-    int mirrored;                                                           /* the model matrix swaps front and back */
+    int fan;          /* the dark cap is a fan over the silhouette */
+    int mcguire_case; /* 1: by z-pass; 2, 3: by z-fail */
+    int mirrored;     /* the model matrix swaps front and back */
     gn_far far_end;
     double end_plane[4]; /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
     double end_reach;    /* not 0: no plane; it ends at so many times its distance from the light, or so much farther */
@@ -275,10 +302,11 @@ typedef struct gn_record {
 } gn_record;
 
 typedef enum gn_step_kind {
-    GN_STEP_CLEAR,   /* colour, depth and stencil, unmasked */
-    GN_STEP_ZERO,    /* the stencil becomes the layout's reference again, by a quad */
+    GN_STEP_CLEAR,   /* colour, depth and stencil, unmasked; the stencil to the reference of light 0 */
+    GN_STEP_ZERO,    /* the stencil becomes the reference of `light` again, by a quad in its scissor */
     GN_STEP_VOLUMES, /* records are counted into the stencil */
-    GN_STEP_DRAW     /* the host's: see gn_draw */
+    GN_STEP_DRAW,    /* the host's: see gn_draw */
+    GN_STEP_FOLD     /* where the count is not nought it becomes nought and the flag is set, by a quad in the scissor */
 } gn_step_kind;
 
 typedef enum gn_draw {
@@ -296,15 +324,59 @@ typedef struct gn_step {
     uint32_t first_record, record_count; /* GN_STEP_VOLUMES */
 } gn_step;
 
+/* Why something is not drawn. */
+typedef enum gn_skip {
+    GN_SKIP_NOT,          /* it is drawn */
+    GN_SKIP_NO_CASTER,    /* an object: it has not the flag GN_CASTS */
+    GN_SKIP_EXEMPT,       /* an object: the light's list exempts it */
+    GN_SKIP_NO_TRIANGLE,  /* an object: none of its triangles casts in this light */
+    GN_SKIP_OUT_OF_REACH, /* an object: it lies beyond the light's reach, or outside its cone or box */
+    GN_SKIP_OUT_OF_VIEW,  /* an object: its volume misses what is seen. A light: so does all that it reaches */
+    GN_SKIP_NO_RECEIVER, /* an object: its volume misses all that receives, is seen and reached. A light: there is nothing
+                             such, nor anything else to be lit */
+    GN_SKIP_FAINT,       /* a light: it adds less than half a step anywhere */
+    GN_SKIP_UNIMPORTANT, /* a light: it adds no more than gn_scene.least_light */
+    GN_SKIP_LIGHT,       /* an object: its light is skipped */
+    GN_SKIP_ENDLESS      /* an object: its volume has no end under an orthographic camera: a warning */
+} gn_skip;
+
 typedef struct gn_plan_light {
     gn_method method;
     char reason[256]; /* why this method, and this way of it: a sentence */
-    uint32_t casters;
-    uint32_t cases[3]; /* casters drawn by McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
-    /* A warning: counts may leave stencil.low .. high, because counting stops there and more triangles cast than that.
-     * Nothing proves that they do not lie behind each other. */
-    int may_overflow;
+    gn_skip skip;     /* not GN_SKIP_NOT: there is no step for it */
+    gn_stencil_layout stencil;
+    double reach;             /* what is farther is not lit; INFINITY: no bound */
+    uint32_t scissor[4];      /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound */
+    double depth_bounds[2];   /* window depths of what it lights; 0, 1: no bound */
+    double possible_error;    /* the most that skipping it takes from a pixel; 0 unless it is GN_SKIP_UNIMPORTANT */
+    uint32_t casters;         /* with a volume */
+    uint32_t cases[3];        /* of them: McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
+    uint32_t skipped_casters; /* that might have cast, and were skipped */
+    uint32_t layers;          /* no point is blocked by more casting triangles than this, as far as was looked */
+    uint32_t batches;         /* in which volumes are counted, folded into the flag between */
 } gn_plan_light;
+
+/* What became of one object in one light. */
+typedef struct gn_plan_caster {
+    uint8_t skip;         /* gn_skip */
+    uint8_t mcguire_case; /* 1 to 3; 0 when it is skipped */
+    uint8_t parts;        /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: drawn */
+    uint8_t fan;          /* its dark cap is a fan */
+} gn_plan_caster;
+
+/* What a plan cannot keep, known before the frame. */
+typedef enum gn_warning {
+    /* Counting stops at the ends of the range and more triangles cast than that: nothing proves that they are not behind each
+     * other on some line of sight. */
+    GN_WARN_OVERFLOW,
+    /* Volumes of orthographic cameras that were left out, because the light is so close to so many large triangles that their
+     * ends need too many planes. */
+    GN_WARN_ENDLESS,
+    /* From some distance on a step of depth is larger than a pixel, and something is seen there: edges of shadows stray by
+     * more than a pixel, and thin things lose theirs. */
+    GN_WARN_DEPTH,
+    GN_WARNING_COUNT
+} gn_warning;
 
 typedef struct gn_plan_object {
     const gn_mesh *mesh;
@@ -317,7 +389,7 @@ typedef struct gn_plan_object {
  * printed. */
 typedef struct gn_plan {
     gn_target target;
-    gn_stencil_layout stencil;
+    int blend_once;     /* as in the scene */
     double clear_depth; /* 1, or the depth of zfar */
     double
         depth_range[2]; /* view distances that depth 0 and 1 stand for; [1] is INFINITY for most perspective cameras */
@@ -331,9 +403,11 @@ typedef struct gn_plan {
     uint32_t light_count;
     const gn_plan_object *objects;
     uint32_t object_count;
-    /* A warning: volumes of orthographic cameras that were left out, because the light is so close to so many large
-     * triangles that their ends need too many planes. One is counted for each light. */
-    uint32_t endless_casters;
+    const gn_plan_caster *casters; /* [light_count][object_count] */
+    uint32_t warnings;             /* set of gn_warning: bit 1u << warning */
+    uint32_t endless_casters;      /* left out with GN_WARN_ENDLESS; one is counted for each light */
+    double depth_limit;            /* the view distance from which on a step of depth is larger than a pixel */
+    double deepest_receiver;       /* the view distance of the farthest thing that receives and may be seen */
 } gn_plan;
 
 /* Bytes that gn_plan_make() may need for this scene at most, whatever the camera, the lights' places and the model
@@ -346,8 +420,19 @@ size_t gn_plan_bound(const gn_scene *scene);
  * needs what the target lacks, or when a volume would be clipped at the far plane. Cost: O(triangles of casters) for each light. */
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan);
 
-/* The method of one of the plan's lights with its suffix: "zfail", "zfail/one-sided". Static. */
+/* The method of one of the plan's lights with its suffix: "zfail", "zfail/one-sided". Static; "" for a light that is none of
+ * the plan's. */
 const char *gn_plan_method_name(const gn_plan *plan, uint32_t light);
+
+/* Sentences about a plan, into text[capacity]: always terminated when capacity > 0; they return the length that the whole
+ * has, like snprintf, and 0 for what is not of the plan.
+ *
+ * Of a light: its method and why, what bounds it, how it is counted, or why it is skipped. */
+size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, size_t capacity);
+/* Of an object in a light: its case and why, what is drawn of its volume; or why it is skipped. */
+size_t gn_plan_explain_caster(const gn_plan *plan, uint32_t light, uint32_t object, char *text, size_t capacity);
+/* Of a warning; 0 when it is not among the plan's. */
+size_t gn_plan_explain_warning(const gn_plan *plan, gn_warning warning, char *text, size_t capacity);
 
 /* Writes the plan as JSON into text[capacity], always terminated when capacity > 0, and returns the length that the
  * whole has, like snprintf. */

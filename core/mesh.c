@@ -16,6 +16,7 @@ void gn_mesh_destroy(gn_mesh *mesh)
     gni_free(context, mesh->planes);
     gni_free(context, mesh->edge_uses);
     gni_free(context, mesh->uses);
+    gni_free(context, mesh->edge_of);
     gni_free(context, mesh->chunk_edges);
     gni_free(context, mesh->parts);
     gni_free(context, mesh->part_triangles);
@@ -45,6 +46,7 @@ static void plane_of(const gn_mesh *mesh, uint32_t triangle, double plane[4])
 static gn_result make_planes(gn_mesh *mesh)
 {
     const double *first = NULL;
+    int is_alike = 1;
 
     mesh->planes = gni_alloc(mesh->context, mesh->info.triangle_count, 4 * sizeof(double));
     if (!mesh->planes)
@@ -59,6 +61,7 @@ static gn_result make_planes(gn_mesh *mesh)
             continue;
         if (!first)
             first = plane;
+        is_alike &= plane[0] * first[0] + plane[1] * first[1] + plane[2] * first[2] > 0.0;
         for (int k = 0; k < 3; k++) { /* exact: a mesh is planar, or it is not known to be */
             const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
 
@@ -68,6 +71,8 @@ static gn_result make_planes(gn_mesh *mesh)
     }
     if (!first)
         mesh->info.planar = 0;
+    else if (mesh->info.planar && is_alike)
+        mesh->info.planar = 2;
     return GN_OK;
 }
 

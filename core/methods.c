@@ -35,6 +35,8 @@ gn_method gn_method_by_name(const char *name, int *one_sided)
 {
     const char *const suffix = name ? strstr(name, one_sided_suffix) : NULL;
 
+    if (!one_sided)
+        return GN_METHOD_COUNT;
     *one_sided = suffix && strcmp(suffix, one_sided_suffix) == 0;
     for (int m = 0; m < GN_METHOD_COUNT; m++) {
         const char *const full = *one_sided ? methods[m].one_sided_name : methods[m].info.name;
@@ -47,7 +49,10 @@ gn_method gn_method_by_name(const char *name, int *one_sided)
 
 const char *gn_plan_method_name(const gn_plan *plan, uint32_t light)
 {
-    const gn_method method = plan->lights[light].method;
+    const gn_plan_light *about;
 
-    return plan->stencil.two_sided ? methods[method].info.name : methods[method].one_sided_name;
+    if (!plan || light >= plan->light_count)
+        return "";
+    about = &plan->lights[light];
+    return about->stencil.two_sided ? methods[about->method].info.name : methods[about->method].one_sided_name;
 }

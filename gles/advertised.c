@@ -30,6 +30,7 @@ static const struct {
     {GN_CAN_UINT_INDICES, 30, 11, {"GL_OES_element_index_uint"}},
     {GN_CAN_PARTIAL_CLEAR, ALWAYS, ALWAYS, {NULL}},
     {GN_CAN_TIMER_QUERY, NEVER, 33, {"GL_EXT_disjoint_timer_query", "GL_ARB_timer_query"}},
+    {GN_CAN_DEPTH_BOUNDS, NEVER, NEVER, {"GL_EXT_depth_bounds_test"}},
     {GN_CAN_DISCARD, NEVER, 43, {"GL_EXT_discard_framebuffer", "GL_ARB_invalidate_subdata"}},
 };
 

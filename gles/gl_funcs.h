@@ -115,6 +115,7 @@ GN_GL_PROC(glViewport, (GLint x, GLint y, GLsizei width, GLsizei height), (x, y,
 #endif
 GN_GL_OPTIONAL(glBeginQueryEXT, glBeginQuery, (GLenum target, GLuint query), (target, query))
 GN_GL_OPTIONAL(glDeleteQueriesEXT, glDeleteQueries, (GLsizei n, const GLuint *queries), (n, queries))
+GN_GL_OPTIONAL(glDepthBoundsEXT, glDepthBoundsEXT, (double least, double most), (least, most))
 GN_GL_OPTIONAL(glDiscardFramebufferEXT, glInvalidateFramebuffer, (GLenum target, GLsizei n, const GLenum *attachments),
                (target, n, attachments))
 GN_GL_OPTIONAL(glEndQueryEXT, glEndQuery, (GLenum target), (target))

@@ -12,12 +12,15 @@ typedef struct gni_state {
     GLboolean color_write, depth_write;
     GLuint stencil_write;
     GLenum depth_func;   /* 0: no depth test */
-    GLenum stencil_func; /* 0: no stencil test. All bits */
+    GLenum stencil_func; /* 0: no stencil test */
     GLint stencil_reference;
+    GLuint stencil_mask; /* bits that are compared */
     gni_face front, back;
     GLenum blend_source, blend_destination; /* 0, 0: no blending */
     GLenum cull;                            /* the faces that are not drawn; 0: all are */
     int offset;                             /* depth steps by which triangles are moved away from the eye */
+    const uint32_t *scissor;                /* x, y, width, height; NULL: no scissor test */
+    const double *bounds;                   /* of depth, least and most; NULL: no test */
     int clamp;                              /* depth out of range is clamped */
 } gni_state;
 
@@ -29,6 +32,7 @@ typedef struct gni_upload {
 /* Of extensions that gl2.h does not know; desktop OpenGL has the same numbers. */
 #define GNI_DEPTH_CLAMP      0x864F
 #define GNI_DEPTH24_STENCIL8 0x88F0
+#define GNI_DEPTH_BOUNDS     0x8890 /* GL_DEPTH_BOUNDS_TEST_EXT */
 
 #define GNI_SYMPTOM 96
 
@@ -55,10 +59,14 @@ struct gn_gles {
     gni_state state;                                 /* what was last sent */
     unsigned tests_on;                               /* of state.c's switches */
     int state_is_known;
-    int clamps; /* this plan enables depth clamp */
+    unsigned may_switch; /* of state.c's switches: those that this plan may touch */
 };
 
-/* state.c: sends what differs from what was last sent since gni_reset_state(). */
+/* state.c. What is no enumerant where its extension is not there: touched by plans that ask for it. */
+#define GNI_SWITCH_BOUNDS (1u << 6)
+#define GNI_SWITCH_CLAMP  (1u << 7)
+
+/* Sends what differs from what was last sent since gni_reset_state(). */
 void gni_set_state(gn_gles *g, const gni_state *wanted);
 /* Sends the state that is the same in all passes, and forgets the rest: the host may have changed anything. */
 void gni_reset_state(gn_gles *g);

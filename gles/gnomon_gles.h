@@ -20,14 +20,17 @@
  *                a new context. Any other state
  *     clear      the first gn_gles_next() clears colour (to the host's clear colour), depth and stencil, unmasked
  *     AMBIENT    depth test LESS, depth written; stencil test and blending off
- *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL to the plan's
- *                stencil.reference, stencil not written; the others: stencil test off
+ *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL to the light's
+ *                stencil.reference, stencil not written; the others: stencil test off. A plan that has blend_once: stencil
+ *                test EQUAL for both, and INCR where it passes. Scissor test on where the light's scissor is not the whole
+ *                target, depth bounds test where its depth bounds are not 0 and 1
  *     FINAL      depth test LESS, depth not written; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA; stencil test off
- *     in each    viewport 0, 0, width, height of the target; colour written; culling, scissor test, polygon offset and
- *                depth clamp off; front face CCW; blend equation ADD; no program in use; no buffer bound; all vertex attribute
+ *     in each    viewport 0, 0, width, height of the target; colour written; culling, polygon offset and depth clamp
+ *                off, and so are scissor test and depth bounds test but in LIGHT; front face CCW; blend equation ADD; no program in use; no buffer bound; all vertex attribute
  *                arrays disabled
- *     on exit    after gn_gles_next() has returned 0: all of these, cull face, polygon offset, depth clamp, clear depth
- *                and clear stencil are as in a new context, but the viewport, which is the target's. Nothing else was
+ *     on exit    after gn_gles_next() has returned 0: all of these, cull face, polygon offset, depth clamp, depth bounds,
+ *                clear depth and clear stencil are as in a new context, but the viewport and the scissor's box, which are
+ *                the target's. Nothing else was
  *                ever touched: textures, dither, clear colour, pixel store, attribute pointers but that of array 0
  *
  * Errors come as gn_result, sentences from gn_message() of the context; drivers' logs go to its port. Walking allocates
@@ -108,9 +111,9 @@ gn_result gn_gles_begin(gn_gles *gl, const gn_plan *plan);
 /* Does what the plan says up to the next step that is the host's. Returns 1 with that step, or 0 at the frame's end. */
 int gn_gles_next(gn_gles *gl, gn_step *step);
 
-/* Draws the volumes of some records of the plan last begun in one colour, to look at or to count. Depth, stencil,
- * blending, masks and culling are the host's; depth clamp is on where a record needs it and off afterwards; program,
- * buffers and attribute arrays as on exit above. */
+/* Draws the volumes of some records of the plan last begun in one colour, each in its light's scissor, to look at or to
+ * count. Depth, stencil, blending, masks and culling are the host's; depth clamp is on where a record needs it and off
+ * afterwards; scissor, program, buffers and attribute arrays as on exit above. */
 void gn_gles_draw_volumes(gn_gles *gl, const gn_plan *plan, uint32_t first_record, uint32_t record_count,
                           const float color[4]);
 

@@ -6,18 +6,18 @@
 
 #include <string.h>
 
-/* What is switched on and off, in the order of the bits of gn_gles.tests_on. Depth clamp is last: it is touched only
- * where a plan asks for it, since elsewhere it is no enumerant. */
-static const GLenum switches[] = {GL_DEPTH_TEST,          GL_STENCIL_TEST, GL_BLEND,
-                                  GL_POLYGON_OFFSET_FILL, GL_CULL_FACE,    GNI_DEPTH_CLAMP};
+/* What is switched on and off, in the order of the bits of gn_gles.tests_on. */
+static const GLenum switches[] = {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_BLEND,         GL_POLYGON_OFFSET_FILL,
+                                  GL_CULL_FACE,  GL_SCISSOR_TEST, GNI_DEPTH_BOUNDS, GNI_DEPTH_CLAMP};
 enum { SWITCHES = sizeof switches / sizeof switches[0] };
 
 static void send_switches(gn_gles *g, const gni_state *wanted)
 {
     const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) |
                         (wanted->blend_source ? 4u : 0u) | (wanted->offset ? 8u : 0u) | (wanted->cull ? 16u : 0u) |
-                        (wanted->clamp ? 32u : 0u);
-    const unsigned changed = g->state_is_known ? on ^ g->tests_on : (g->clamps || wanted->clamp ? 63u : 31u);
+                        (wanted->scissor ? 32u : 0u) | (wanted->bounds ? GNI_SWITCH_BOUNDS : 0u) |
+                        (wanted->clamp ? GNI_SWITCH_CLAMP : 0u);
+    const unsigned changed = g->state_is_known ? on ^ g->tests_on : on | g->may_switch | (GNI_SWITCH_BOUNDS - 1u);
 
     for (int i = 0; i < SWITCHES; i++) {
         if (!(changed >> i & 1))
@@ -47,8 +47,9 @@ static void send_stencil(gn_gles *g, const gni_state *wanted)
     gni_state *last = &g->state;
     const int never_sent = !last->stencil_func;
 
-    if (wanted->stencil_func != last->stencil_func || wanted->stencil_reference != last->stencil_reference)
-        gl->glStencilFunc(wanted->stencil_func, wanted->stencil_reference, ~0u);
+    if (wanted->stencil_func != last->stencil_func || wanted->stencil_reference != last->stencil_reference ||
+        wanted->stencil_mask != last->stencil_mask)
+        gl->glStencilFunc(wanted->stencil_func, wanted->stencil_reference, wanted->stencil_mask);
     if (never_sent || faces_differ(&wanted->front, &last->front) || faces_differ(&wanted->back, &last->back)) {
         const gni_face *front = &wanted->front, *back = &wanted->back;
 
@@ -61,6 +62,7 @@ static void send_stencil(gn_gles *g, const gni_state *wanted)
     }
     last->stencil_func = wanted->stencil_func;
     last->stencil_reference = wanted->stencil_reference;
+    last->stencil_mask = wanted->stencil_mask;
     last->front = wanted->front;
     last->back = wanted->back;
 }
@@ -94,6 +96,16 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         gl->glPolygonOffset(0.0f, (GLfloat)wanted->offset);
         last->offset = wanted->offset;
     }
+    if (wanted->scissor && wanted->scissor != last->scissor) {
+        const uint32_t *at = wanted->scissor;
+
+        gl->glScissor((GLint)at[0], (GLint)at[1], (GLsizei)at[2], (GLsizei)at[3]);
+        last->scissor = at;
+    }
+    if (wanted->bounds && wanted->bounds != last->bounds) {
+        gl->glDepthBoundsEXT(wanted->bounds[0], wanted->bounds[1]);
+        last->bounds = wanted->bounds;
+    }
     if (wanted->cull && wanted->cull != last->cull) {
         gl->glCullFace(wanted->cull);
         last->cull = wanted->cull;
@@ -110,7 +122,6 @@ void gni_reset_state(gn_gles *g)
 
     memset(&g->state, 0, sizeof g->state);
     g->state_is_known = 0;
-    gl->glDisable(GL_SCISSOR_TEST);
     gl->glFrontFace(GL_CCW);
     gl->glBlendEquation(GL_FUNC_ADD);
     for (GLuint i = 0; i < g->attribute_arrays; i++)

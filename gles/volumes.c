@@ -60,7 +60,10 @@ void gn_gles_draw_volumes(gn_gles *g, const gn_plan *plan, uint32_t first_record
     gni_begin_volumes(g, color);
     for (uint32_t i = first_record; i < first_record + record_count && i < plan->record_count; i++) {
         const int clamped = plan->records[i].far_end == GN_FAR_CLAMPED;
+        const uint32_t *at = plan->lights[plan->records[i].light].scissor;
 
+        g->gl.glEnable(GL_SCISSOR_TEST);
+        g->gl.glScissor((GLint)at[0], (GLint)at[1], (GLsizei)at[2], (GLsizei)at[3]);
         if (clamped)
             g->gl.glEnable(GNI_DEPTH_CLAMP);
         for (int turned = 0; turned < 2; turned++)
@@ -68,5 +71,7 @@ void gn_gles_draw_volumes(gn_gles *g, const gn_plan *plan, uint32_t first_record
         if (clamped)
             g->gl.glDisable(GNI_DEPTH_CLAMP);
     }
+    g->gl.glDisable(GL_SCISSOR_TEST);
+    g->gl.glScissor(0, 0, (GLsizei)plan->target.width, (GLsizei)plan->target.height);
     gni_end_volumes(g);
 }

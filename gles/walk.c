@@ -4,8 +4,8 @@
  * surface, back faces up and front faces down; z-pass what lies before it, the other way round. Depth is compared LESS: a
  * light cap that is the visible surface itself counts as behind it, and that is why a surface is unlit on the side
  * turned away from the light and lit on the other. Where stencil is two-sided one draw counts both ways, else two draws
- * do, a side each. Wrapping keeps their order from mattering; counts that stop at the ends start in the middle (the plan's
- * layout says where, and how far they reach).
+ * do, a side each. Wrapping keeps their order from mattering; counts that stop at the ends start in the middle (the light's
+ * layout says where, how far they reach, and which bits above them flag what earlier batches counted).
  *
  * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other
  * face of a fold, lies less than a step behind the visible surface, and interpolation may put it before: the cap
@@ -26,25 +26,52 @@ static const gni_state final = {.color_write = GL_TRUE,
                                 .blend_destination = GL_ONE_MINUS_SRC_ALPHA};
 static const gni_state unmasked = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .stencil_write = ~0u};
 
-static gni_state light_under_mask(const gn_stencil_layout *layout)
+/* Nothing outside a light's bounds is lit: its passes stay in its scissor, and where the driver can within its depths. */
+static void bound(gni_state *s, const gn_plan *plan, const gn_plan_light *l)
 {
+    if (l->scissor[2] < plan->target.width || l->scissor[3] < plan->target.height)
+        s->scissor = l->scissor;
+    if (l->depth_bounds[0] > 0.0 || l->depth_bounds[1] < 1.0)
+        s->bounds = l->depth_bounds;
+}
+
+static gni_state light_under_mask(const gn_plan *plan, const gn_plan_light *l)
+{
+    static const gni_face lit_once = {0, GL_INCR};
     gni_state s = light;
 
     s.stencil_func = GL_EQUAL;
-    s.stencil_reference = layout->reference;
+    s.stencil_reference = l->stencil.reference;
+    s.stencil_mask = ~0u;
+    if (plan->blend_once) {
+        s.stencil_write = ~0u;
+        s.front = s.back = lit_once;
+    }
     return s;
 }
 
 /* The quad that makes every count the reference again. */
 static gni_state reset(const gn_stencil_layout *layout)
 {
-    const gni_face replace = {GL_REPLACE, GL_REPLACE};
+    static const gni_face replace = {GL_REPLACE, GL_REPLACE};
     const gni_state s = {.stencil_write = ~0u,
                          .stencil_func = GL_ALWAYS,
                          .stencil_reference = layout->reference,
+                         .stencil_mask = ~0u,
                          .front = replace,
                          .back = replace};
 
+    return s;
+}
+
+/* The quad that folds a batch: where the count is not the reference it becomes the reference, and the flag is set. */
+static gni_state fold(const gn_stencil_layout *layout)
+{
+    gni_state s = reset(layout);
+
+    s.stencil_func = GL_NOTEQUAL;
+    s.stencil_reference = layout->flag | layout->reference;
+    s.stencil_mask = (1u << layout->bits) - 1u;
     return s;
 }
 
@@ -70,15 +97,16 @@ static int shows_backs(const gn_record *r, int turned, half h)
 
 static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, half h)
 {
-    const gn_stencil_layout *layout = &plan->stencil;
+    const gn_stencil_layout *layout = &plan->lights[r->light].stencil;
     const int zfail = is_zfail(r);
     const GLenum up = layout->wrap ? GL_INCR_WRAP : GL_INCR, down = layout->wrap ? GL_DECR_WRAP : GL_DECR;
     const gni_face rise = {zfail ? up : 0, zfail ? 0 : up}, fall = {zfail ? down : 0, zfail ? 0 : down};
     const int backs_rise = zfail != is_swapped(r, turned);
-    gni_state s = {.stencil_write = ~0u,
+    gni_state s = {.stencil_write = (1u << layout->bits) - 1u, /* a carry stays out of the flag */
                    .depth_func = GL_LESS,
                    .stencil_func = GL_ALWAYS,
                    .stencil_reference = layout->reference,
+                   .stencil_mask = ~0u,
                    .offset = 1,
                    .clamp = r->far_end == GN_FAR_CLAMPED};
 
@@ -90,6 +118,7 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, h
         if (!layout->discard)
             s.cull = shows_backs(r, turned, h) ? GL_FRONT : GL_BACK;
     }
+    bound(&s, plan, &plan->lights[r->light]);
     return s;
 }
 
@@ -110,7 +139,8 @@ static int make_sided(gn_gles *g)
 
 gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
 {
-    int clamps = 0;
+    unsigned may_switch = 0;
+    int discards = 0;
 
     if (!g || !plan)
         return gn_fail(g ? g->context : NULL, GN_E_ARG, "gn_gles_begin: NULL argument");
@@ -120,12 +150,19 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
         if (!gni_find_upload(g, plan->objects[plan->records[i].object].mesh))
             return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the mesh of object %lu was not uploaded",
                            (unsigned long)plan->records[i].object);
-        clamps |= plan->records[i].far_end == GN_FAR_CLAMPED;
+        may_switch |= plan->records[i].far_end == GN_FAR_CLAMPED ? GNI_SWITCH_CLAMP : 0u;
     }
-    if (plan->stencil.discard && !g->sided && !make_sided(g))
+    for (uint32_t i = 0; i < plan->light_count; i++) {
+        const gn_plan_light *l = &plan->lights[i];
+
+        if (l->skip == GN_SKIP_NOT && (l->depth_bounds[0] > 0.0 || l->depth_bounds[1] < 1.0))
+            may_switch |= GNI_SWITCH_BOUNDS;
+        discards |= l->stencil.discard;
+    }
+    if (discards && !g->sided && !make_sided(g))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses the shader that discards: see the log");
     g->plan = plan;
-    g->clamps = clamps;
+    g->may_switch = may_switch;
     g->at = 0;
     if (plan->index_count) {
         g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
@@ -140,16 +177,18 @@ static void clear(gn_gles *g)
 {
     gni_set_state(g, &unmasked);
     g->gl.glClearDepthf((GLfloat)g->plan->clear_depth);
-    g->gl.glClearStencil(g->plan->stencil.reference);
+    g->gl.glClearStencil(g->plan->light_count ? g->plan->lights[0].stencil.reference : 0);
     g->gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
 }
 
-static void reset_stencil(gn_gles *g)
+/* A quad over the target, or the light's part of it. */
+static void draw_quad(gn_gles *g, const gn_step *step, gni_state state)
 {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, none[4] = {0, 0, 0, 0};
     const gn_gl *gl = &g->gl;
-    const gni_state state = reset(&g->plan->stencil);
 
+    bound(&state, g->plan, &g->plan->lights[step->light]);
+    state.bounds = NULL; /* what depth the pixels have does not matter */
     gni_set_state(g, &state);
     gni_begin_volumes(g, none);
     gl->glBindBuffer(GL_ARRAY_BUFFER, g->quad);
@@ -170,7 +209,7 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, half h)
                 continue;
             state = counting(g->plan, r, turned, h);
             gni_set_state(g, &state);
-            if (g->plan->stencil.discard)
+            if (g->plan->lights[r->light].stencil.discard)
                 g->gl.glUniform1f(g->sided_side, shows_backs(r, turned, h) ? -1.0f : 1.0f);
             gni_draw_record(g, g->plan, r, turned);
         }
@@ -181,16 +220,17 @@ static void count_volumes(gn_gles *g, const gn_step *step)
 {
     static const float none[4] = {0, 0, 0, 0};
     const gn_plan *plan = g->plan;
+    const gn_stencil_layout *layout = &plan->lights[step->light].stencil;
     const uint32_t end = step->first_record + step->record_count;
 
-    if (plan->stencil.discard)
+    if (layout->discard)
         gni_begin_sided_volumes(g);
     else
         gni_begin_volumes(g, none);
     for (uint32_t i = step->first_record, next; i < end; i = next) {
         for (next = i + 1; next < end && plan->records[next].object == plan->records[i].object;)
             next++;
-        if (plan->stencil.two_sided) {
+        if (layout->two_sided) {
             count_records(g, i, next, BOTH);
         } else {
             count_records(g, i, next, RISING);
@@ -202,11 +242,15 @@ static void count_volumes(gn_gles *g, const gn_step *step)
 
 static gni_state state_for(const gn_plan *plan, const gn_step *step)
 {
+    gni_state s;
+
     switch (step->draw) {
     case GN_DRAW_AMBIENT:
         return ambient;
     case GN_DRAW_LIGHT:
-        return step->receivers ? light_under_mask(&plan->stencil) : light;
+        s = step->receivers || plan->blend_once ? light_under_mask(plan, &plan->lights[step->light]) : light;
+        bound(&s, plan, &plan->lights[step->light]);
+        return s;
     default:
         return final;
     }
@@ -227,7 +271,10 @@ int gn_gles_next(gn_gles *g, gn_step *out)
             clear(g);
             break;
         case GN_STEP_ZERO:
-            reset_stencil(g);
+            draw_quad(g, step, reset(&g->plan->lights[step->light].stencil));
+            break;
+        case GN_STEP_FOLD:
+            draw_quad(g, step, fold(&g->plan->lights[step->light].stencil));
             break;
         case GN_STEP_VOLUMES:
             count_volumes(g, step);
@@ -243,7 +290,10 @@ int gn_gles_next(gn_gles *g, gn_step *out)
         }
     }
     gni_leave_state(g);
+    g->gl.glScissor(0, 0, (GLsizei)g->plan->target.width, (GLsizei)g->plan->target.height);
+    if (g->may_switch & GNI_SWITCH_BOUNDS)
+        g->gl.glDepthBoundsEXT(0.0, 1.0);
     g->plan = NULL;
-    g->clamps = 0;
+    g->may_switch = 0;
     return 0;
 }

@@ -37,11 +37,12 @@ static const struct {
 static void add_method(cJSON *to, gn_context *context, gn_method method, const gn_target *target)
 {
     static double memory[4096];
-    gn_light light = {GN_LIGHT_POINT, {0, 0, 0}, {0, 0, 0}};
+    gn_light light;
     char text[320];
     gn_scene s;
     const gn_plan *plan;
 
+    memset(&light, 0, sizeof light);
     memset(&s, 0, sizeof s);
     for (int i = 0; i < 4; i++)
         s.camera.world[5 * i] = 1.0;
@@ -56,7 +57,8 @@ static void add_method(cJSON *to, gn_context *context, gn_method method, const g
         cJSON_AddStringToObject(to, gn_method_describe(method)->name, gn_message(context));
         return;
     }
-    snprintf(text, sizeof text, "possible%s", plan->lights[0].reason + strcspn(plan->lights[0].reason, ";"));
+    snprintf(text, sizeof text, "possible%s; %d layers at once, more in batches",
+             plan->lights[0].reason + strcspn(plan->lights[0].reason, ";"), plan->lights[0].stencil.high);
     cJSON_AddStringToObject(to, gn_method_describe(method)->name, text);
 }
 

@@ -27,6 +27,9 @@ const char help_render[] =
     "  --platform NAME       egl or osmesa [the first that works]\n"
     "  --hide CAP[,CAP...]   pretends that capabilities are absent: `gnomon probe` names them\n"
     "  --explain             prints why each light got its method, and each caster its case\n"
+    "  --soft N:RADIUS       area lights: N jittered lights within RADIUS in place of each [1:0]\n"
+    "  --importance E        leaves out lights that add at most E of full light to any pixel [0]\n"
+    "  --blend-once          of coincident surfaces only the first is lit by each light\n"
     "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
     "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
     "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
@@ -36,10 +39,10 @@ const char help_render[] =
     "  --help                this text\n";
 
 typedef struct job {
-    const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report;
-    long size[2], frames;
-    double spin, exposure;
-    int explain, one_sided;
+    const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report, *soft;
+    long size[2], frames, soft_count;
+    double spin, exposure, importance, soft_radius;
+    int explain, one_sided, blend_once;
     gn_method method;
 } job;
 
@@ -109,7 +112,7 @@ static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
         return EXIT_FAILED;
     }
     for (uint32_t i = 0; i < s->scene->light_count; i++) {
-        const stage_wish wish = {j->method, j->one_sided, 1, i, 1};
+        const stage_wish wish = {j->method, j->one_sided, 1, i, 1, 1, 0, 0.0};
         const int status = stage_plan(s, &wish, message);
 
         if (status != 0 || !stage_draw_mask(s, i, message)) {
@@ -142,7 +145,7 @@ static int write_plan(const stage *s, const char *path)
 /* One frame, drawn and waited for. Returns 0 or an exit status. */
 static int timed_frame(stage *s, const job *j, int casting, double *ms, char message[SCENE_MESSAGE])
 {
-    const stage_wish wish = {j->method, j->one_sided, casting, 0, (uint32_t)s->scene->light_count};
+    const stage_wish wish = {j->method, j->one_sided, casting, 0, s->light_count, 0, j->blend_once, j->importance};
     const double start = now_ms();
     const int status = stage_plan(s, &wish, message);
 
@@ -225,53 +228,37 @@ static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_M
     return EXIT_DONE;
 }
 
-/* A line for each light, and for each of its casters. */
+/* A line for each light, and for each object that might cast. */
 static void explain(const stage *s)
 {
-    static const char *const cases[] = {"case 1, by z-pass: it stands not between the light and the near plane",
-                                        "case 2, by z-fail: its shadow may reach the near plane; it is out of view",
-                                        "case 3, by z-fail: its shadow may reach the near plane, or it does itself"};
-    static const char *const parts[] = {"sides", "light cap", "dark cap"};
+    char text[1024];
 
     for (uint32_t i = 0; i < s->plan->light_count; i++) {
-        printf("light %u: %s: %s\n", (unsigned)i, gn_plan_method_name(s->plan, i), s->plan->lights[i].reason);
-        for (uint32_t o = 0; o < s->plan->object_count; o++) {
-            const gn_record *found = NULL;
-            const char *separator = "; ";
-            unsigned drawn = 0;
-
-            for (uint32_t r = 0; r < s->plan->record_count; r++)
-                if (s->plan->records[r].light == i && s->plan->records[r].object == o) {
-                    found = &s->plan->records[r];
-                    drawn |= found->parts;
-                }
-            if (!found && s->plan->objects[o].flags & GN_CASTS)
-                printf("  object %u: left out: no part of its volume is in view\n", (unsigned)o);
-            if (!found)
-                continue;
-            printf("  object %u: %s", (unsigned)o, cases[found->mcguire_case - 1]);
-            for (int p = 0; p < 3; p++)
-                if (drawn >> p & 1) {
-                    printf("%s%s", separator, parts[p]);
-                    separator = ", ";
-                }
-            printf("\n");
-        }
+        gn_plan_explain_light(s->plan, i, text, sizeof text);
+        printf("light %u: %s\n", (unsigned)i, text);
+        for (uint32_t o = 0; o < s->plan->object_count; o++)
+            if (s->plan->objects[o].flags & GN_CASTS) {
+                gn_plan_explain_caster(s->plan, i, o, text, sizeof text);
+                printf("  object %u: %s\n", (unsigned)o, text);
+            }
     }
+}
+
+/* What the plan knew before the frame that it cannot keep. */
+static void warn(const stage *s)
+{
+    char text[512];
+
+    for (int w = 0; w < GN_WARNING_COUNT; w++)
+        if (gn_plan_explain_warning(s->plan, (gn_warning)w, text, sizeof text))
+            say("%s", text);
 }
 
 static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
 {
     if (j->explain)
         explain(s);
-    for (uint32_t i = 0; i < s->plan->light_count; i++)
-        if (s->plan->lights[i].may_overflow)
-            say("light %u: more triangles cast than a stencil counts that does not wrap: deep shadows may be wrong "
-                "(%d)",
-                (unsigned)i, s->plan->stencil.high);
-    if (s->plan->endless_casters)
-        say("%u shadows are left out: the light is too close to too many large triangles for an orthographic camera",
-            (unsigned)s->plan->endless_casters);
+    warn(s);
     if (j->show && strcmp(j->show, "volumes") == 0)
         stage_show_volumes(s);
     if (j->show && strcmp(j->show, "cases") == 0)
@@ -304,7 +291,8 @@ static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE
 static int run(const job *j, const char *path)
 {
     const stage_options options = {
-        j->platform, (uint32_t)j->size[0], (uint32_t)j->size[1], j->exposure, 24, 8, j->hide, 0.0, NULL};
+        j->platform, (uint32_t)j->size[0],    (uint32_t)j->size[1], j->exposure, 24, 8, j->hide, 0.0,
+        NULL,        (uint32_t)j->soft_count, j->soft_radius};
     char message[SCENE_MESSAGE] = "";
     measured m;
     scene loaded;
@@ -336,6 +324,27 @@ static int run(const job *j, const char *path)
     return status;
 }
 
+/* N:RADIUS */
+static int parse_soft(job *j)
+{
+    char *end;
+
+    j->soft_count = strtol(j->soft, &end, 10);
+    if (end != j->soft && *end == ':' && j->soft_count >= 1 && j->soft_count <= 1024) {
+        const char *radius = end + 1;
+
+        j->soft_radius = strtod(radius, &end);
+        if (end != radius && *end == '\0' && j->soft_radius >= 0.0 && isfinite(j->soft_radius)) {
+            if (!j->mask_dir || j->soft_count == 1)
+                return 1;
+            say("--soft: a mask is of one light with hard edges: leave out --mask-dir (%s)", j->soft);
+            return 0;
+        }
+    }
+    say("--soft: takes N:RADIUS, N from 1 to 1024 (%s)", j->soft);
+    return 0;
+}
+
 static int one_of(const char *word, const char *const *words)
 {
     for (; *words; words++)
@@ -347,7 +356,7 @@ static int one_of(const char *word, const char *const *words)
 int command_render(int count, char **arguments)
 {
     static const char *const shows[] = {"volumes", "silhouette", "cases", "mask", NULL};
-    job j = {.method_name = "auto", .size = {800, 600}, .frames = 1};
+    job j = {.method_name = "auto", .size = {800, 600}, .frames = 1, .soft_count = 1};
     const option options[] = {
         {"-o", OPTION_TEXT, &j.frame, 0, 0},
         {"--size", OPTION_SIZE, j.size, 1, 16384},
@@ -359,6 +368,9 @@ int command_render(int count, char **arguments)
         {"--frames", OPTION_WHOLE, &j.frames, 1, 1000000},
         {"--spin", OPTION_NUMBER, &j.spin, -1e6, 1e6},
         {"--exposure", OPTION_NUMBER, &j.exposure, 1e-12, 1e12},
+        {"--soft", OPTION_TEXT, &j.soft, 0, 0},
+        {"--importance", OPTION_NUMBER, &j.importance, 0, 1e6},
+        {"--blend-once", OPTION_FLAG, &j.blend_once, 0, 0},
         {"--show", OPTION_TEXT, &j.show, 0, 0},
         {"--plan", OPTION_TEXT, &j.plan, 0, 0},
         {"--report", OPTION_TEXT, &j.report, 0, 0},
@@ -381,6 +393,8 @@ int command_render(int count, char **arguments)
         return EXIT_USAGE;
     }
     if (!check_hidden("--hide", j.hide) || !check_hidden("GNOMON_HIDE", getenv("GNOMON_HIDE")))
+        return EXIT_USAGE;
+    if (j.soft && !parse_soft(&j))
         return EXIT_USAGE;
     if (j.show && !one_of(j.show, shows)) {
         say("--show: takes volumes, silhouette, cases or mask (%s)", j.show);

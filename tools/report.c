@@ -54,6 +54,11 @@ static void add_lights(cJSON *root, const gn_plan *plan)
         cJSON_AddNumberToObject(o, "case1", l->cases[0]);
         cJSON_AddNumberToObject(o, "case2", l->cases[1]);
         cJSON_AddNumberToObject(o, "case3", l->cases[2]);
+        cJSON_AddNumberToObject(o, "skipped_casters", l->skipped_casters);
+        cJSON_AddBoolToObject(o, "left_out", l->skip != GN_SKIP_NOT);
+        cJSON_AddNumberToObject(o, "possible_error", l->possible_error);
+        cJSON_AddNumberToObject(o, "layers", l->layers);
+        cJSON_AddNumberToObject(o, "batches", l->batches);
         cJSON_AddItemToArray(lights, o);
     }
 }

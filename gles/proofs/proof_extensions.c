@@ -55,7 +55,35 @@ static int discards(gni_proofs *p)
     return gni_is_color(p, 0, 0, CELL, CELL, is_red, "colour is lost with depth and stencil");
 }
 
-const gni_lone_proof gni_proofs_of_extensions[2] = {
+/* Over depths 0.25 and 0.75 that are there already, a rectangle under bounds of 0.5 to 1 is drawn on the second alone. */
+static int bounds_depth(gni_proofs *p)
+{
+    const gn_gl *gl = p->gl;
+    static const int is_green[4] = {0, 255, 0, -1}, is_blue[4] = {0, 0, 255, -1};
+    GLenum error;
+
+    if (!gl->glDepthBoundsEXT)
+        return gni_failed(p, "its function is missing");
+    gl->glEnable(GL_DEPTH_TEST);
+    gl->glDepthFunc(GL_ALWAYS);
+    gni_draw_rectangle(p, 0, 0, 8, CELL, -0.5f, 0, gni_green);
+    gni_draw_rectangle(p, 8, 0, 8, CELL, 0.5f, 0, gni_green);
+    gl->glEnable(GNI_DEPTH_BOUNDS);
+    gl->glDepthBoundsEXT(0.5, 1.0);
+    gl->glDisable(GL_DEPTH_TEST);
+    gni_draw_rectangle(p, 0, 0, CELL, CELL, 0.0f, 0, gni_blue);
+    gl->glDisable(GNI_DEPTH_BOUNDS);
+    gl->glDepthBoundsEXT(0.0, 1.0);
+    gl->glReadPixels(p->x, p->y, p->width, p->height, GL_RGBA, GL_UNSIGNED_BYTE, p->pixels);
+    error = gl->glGetError();
+    if (error != GL_NO_ERROR)
+        return gni_failed(p, "the GL says 0x%04X", error);
+    return gni_is_color(p, 0, 0, 8, CELL, is_green, "what is out of bounds is drawn") &&
+           gni_is_color(p, 8, 0, 8, CELL, is_blue, "what is within bounds is not drawn");
+}
+
+const gni_lone_proof gni_proofs_of_extensions[3] = {
     {GN_CAN_TIMER_QUERY, 0, 0, times},
     {GN_CAN_DISCARD, 0, 0, discards},
+    {GN_CAN_DEPTH_BOUNDS, 1u << GN_CAN_DEPTH, 0, bounds_depth},
 };

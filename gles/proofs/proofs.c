@@ -338,7 +338,7 @@ void gni_prove(gn_gles *g, gn_target *target)
         prove_in_cells(&p);
         place_cell(&p, 0);
         drawn_into = replacement.framebuffer ? replacement.framebuffer : (GLuint)bound;
-        prove_alone(&p, gni_proofs_of_extensions, 2, drawn_into);
+        prove_alone(&p, gni_proofs_of_extensions, 3, drawn_into);
         prove_alone(&p, gni_proof_of_partial_clears, 1, drawn_into);
     } else {
         refuse_cells(&p);

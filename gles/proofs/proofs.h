@@ -47,7 +47,7 @@ typedef struct gni_lone_proof {
     int (*holds)(gni_proofs *p);
 } gni_lone_proof;
 
-extern const gni_lone_proof gni_proofs_of_framebuffers[7], gni_proofs_of_extensions[2], gni_proof_of_partial_clears[1];
+extern const gni_lone_proof gni_proofs_of_framebuffers[7], gni_proofs_of_extensions[3], gni_proof_of_partial_clears[1];
 
 int gni_proofs_can(const gni_proofs *p, gn_capability c); /* offered */
 

@@ -91,20 +91,21 @@ static void the_chain_goes_down_step_by_step(void **state)
     (void)state;
     assert_int_equal(plan(), GN_OK);
     assert_string_equal(gn_plan_method_name(f.plan, 0), "stencil");
-    assert_true(f.plan->stencil.two_sided && f.plan->stencil.wrap && f.plan->stencil.reference == 0);
+    assert_true(f.plan->lights[0].stencil.two_sided && f.plan->lights[0].stencil.wrap &&
+                f.plan->lights[0].stencil.reference == 0);
 
     HIDE(GN_CAN_TWO_SIDED_STENCIL);
     assert_int_equal(plan(), GN_OK);
     assert_string_equal(gn_plan_method_name(f.plan, 0), "stencil/one-sided");
-    assert_true(!f.plan->stencil.two_sided && f.plan->stencil.wrap);
+    assert_true(!f.plan->lights[0].stencil.two_sided && f.plan->lights[0].stencil.wrap);
     says("one side at a time, since two-sided-stencil is hidden");
-    assert_true(f.plan->stencil.discard);
+    assert_true(f.plan->lights[0].stencil.discard);
 
     f.scene.target.proven &= ~(1u << GN_CAN_STENCIL_WRAP);
     assert_int_equal(plan(), GN_OK);
-    assert_true(!f.plan->stencil.wrap && f.plan->stencil.reference == 128);
-    assert_int_equal(f.plan->stencil.low, -128);
-    assert_int_equal(f.plan->stencil.high, 127);
+    assert_true(!f.plan->lights[0].stencil.wrap && f.plan->lights[0].stencil.reference == 128);
+    assert_int_equal(f.plan->lights[0].stencil.low, -128);
+    assert_int_equal(f.plan->lights[0].stencil.high, 127);
     says("since stencil-wrap fails its proof");
 
     f.scene.target.advertised &= ~(1u << GN_CAN_STENCIL);
@@ -123,7 +124,7 @@ static void one_sided_may_be_asked_for(void **state)
     says("one side at a time, as asked for");
     HIDE(GN_CAN_FRONT_FACING);
     assert_int_equal(plan(), GN_OK);
-    assert_int_equal(f.plan->stencil.discard, 0);
+    assert_int_equal(f.plan->lights[0].stencil.discard, 0);
     says("culled, which may lose slivers, since front-facing is hidden");
     f.scene.one_sided = 0;
     f.scene.method = GN_METHOD_AUTO;
@@ -215,10 +216,10 @@ static void overflow_is_warned_of(void **state)
 {
     (void)state;
     assert_int_equal(plan(), GN_OK);
-    assert_int_equal(f.plan->lights[0].may_overflow, 0);
+    assert_int_equal(f.plan->warnings & 1u << GN_WARN_OVERFLOW, 0);
     HIDE(GN_CAN_STENCIL_WRAP);
     assert_int_equal(plan(), GN_OK);
-    assert_int_equal(f.plan->lights[0].may_overflow, 0); /* twelve triangles or less */
+    assert_int_equal(f.plan->warnings & 1u << GN_WARN_OVERFLOW, 0); /* twelve triangles or less */
     {
         static test_mesh m;
         gn_mesh_desc desc;
@@ -230,10 +231,10 @@ static void overflow_is_warned_of(void **state)
         assert_int_equal(gn_mesh_create(context, &desc, &torus), GN_OK);
         f.objects[0].mesh = torus;
         assert_int_equal(plan(), GN_OK);
-        assert_int_equal(f.plan->lights[0].may_overflow, 1);
+        assert_int_equal(f.plan->warnings & 1u << GN_WARN_OVERFLOW, 1u << GN_WARN_OVERFLOW);
         f.scene.target.hidden = 0;
         assert_int_equal(plan(), GN_OK);
-        assert_int_equal(f.plan->lights[0].may_overflow, 0);
+        assert_int_equal(f.plan->warnings & 1u << GN_WARN_OVERFLOW, 0);
         f.objects[0].mesh = f.meshes[0];
         gn_mesh_destroy(torus);
     }

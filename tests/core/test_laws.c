@@ -144,12 +144,13 @@ static uint32_t volume_triangles(const gn_mesh *mesh, const int8_t *casting, int
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         const gn_chunk *chunk = &mesh->info.chunks[c];
         gni_stream stream;
-        const uint32_t n =
-            gni_volume_indices(mesh, c, casting, GN_SIDES | GN_LIGHT_CAP | GN_DARK_CAP, converging, indices, &stream);
+        const uint32_t n = gni_volume_indices(mesh, c, casting,
+                                              GN_SIDES | GN_LIGHT_CAP | GN_DARK_CAP | (converging ? GNI_CONVERGING : 0),
+                                              GNI_NONE, indices, &stream);
         const uint32_t turned = n - stream.turned_cap;
 
         assert_int_equal(n, stream.sides + stream.dark_cap + stream.light_cap + stream.turned_cap);
-        assert_true(n <= gni_volume_bound(mesh));
+        assert_true(n <= GNI_MOST_INDICES * mesh->info.triangle_count);
         for (uint32_t i = 0; i < n; i += 3, count++) {
             for (uint32_t k = 0; k < 3; k++) {
                 const uint32_t vertex = mesh->info.chunk_vertices[chunk->first_vertex + indices[i + k] / 2];
@@ -383,7 +384,7 @@ static void ended_volumes_shadow_what_is_seen(void **state)
     for (uint32_t trial = 1; trial <= ENDED_TRIALS; trial++) {
         const int large = trial % 2 == 0; /* triangles larger than what is seen, the light close to them */
         gn_object object;
-        gn_light light = {GN_LIGHT_POINT, {0, 0, 0}, {0, 0, 0}};
+        gn_light light = {.kind = GN_LIGHT_POINT};
         gn_scene scene;
         gn_mesh_desc desc;
         gn_mesh *mesh;

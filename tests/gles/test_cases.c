@@ -40,7 +40,7 @@ static void masks_are_the_same(void **state)
     (void)state;
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     for (size_t n = 0; n < sizeof scenes / sizeof scenes[0]; n++) {
-        const stage_options options = {"egl", WIDTH, HEIGHT, 1.0, 24, 8, NULL, 0.0, NULL};
+        const stage_options options = {"egl", WIDTH, HEIGHT, 1.0, 24, 8, NULL, 0.0, NULL, 0, 0.0};
         char path[128], message[SCENE_MESSAGE] = "";
         scene loaded;
         stage *s;
@@ -54,7 +54,7 @@ static void masks_are_the_same(void **state)
             stage_pose(s, 0, 0);
             place_camera(&loaded, &rng);
             for (int m = 0; m < 2; m++) {
-                const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1};
+                const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1, 1, 0, 0.0};
 
                 assert_int_equal(stage_plan(s, &wish, message), 0);
                 assert_true(stage_draw_mask(s, light, message) && platform_read_back(s->platform, rgba[m]));

@@ -116,8 +116,9 @@ static void check_driver(const char *kind, const char *gallium)
     static const double distances[] = {1.3, 2, 10, 1000};
     static uint8_t lit[WIDTH * HEIGHT], visible[WIDTH * HEIGHT], classes[WIDTH * HEIGHT], rgba[4 * WIDTH * HEIGHT],
         facing[4 * WIDTH * HEIGHT];
-    const stage_options options = {kind, WIDTH, HEIGHT, 1.0, 24, 8, NULL, 0.0, NULL};
-    const stage_wish bare = {GN_METHOD_ZFAIL, 0, 0, 0, 1}, shadowed = {GN_METHOD_ZFAIL, 0, 1, 0, 1};
+    const stage_options options = {kind, WIDTH, HEIGHT, 1.0, 24, 8, NULL, 0.0, NULL, 0, 0.0};
+    const stage_wish bare = {.method = GN_METHOD_ZFAIL, .light_count = 1, .unbounded = 1};
+    const stage_wish shadowed = {.method = GN_METHOD_ZFAIL, .casting = 1, .light_count = 1, .unbounded = 1};
     const truth_options tracing = {WIDTH, HEIGHT, 24, {0, 0}};
     char message[SCENE_MESSAGE] = "";
     static model m;
@@ -138,7 +139,7 @@ static void check_driver(const char *kind, const char *gallium)
             place(&m, &rng, distances[d]);
             /* no animation moves it: stage_pose() but for the scene's own */
             for (int i = 0; i < 3; i++)
-                s->lights[0].position[i] = s->shading[0].position[i] = m.light.position[i];
+                s->lights[0].position[i] = m.light.position[i];
             t = truth_create(&m.s, &tracing, message);
             if (!t || !truth_light(t, 0, lit, visible, classes, message) || stage_plan(s, &bare, message) ||
                 !stage_draw_mask(s, 0, message) || !platform_read_back(s->platform, facing) ||

@@ -190,8 +190,8 @@ static gn_proc replace(const char *name, gn_proc found)
 static int draw(const char *path, const char *told, const char *hide, double finite_far, gn_capability c, int proven,
                 uint8_t *rgba, char message[SCENE_MESSAGE])
 {
-    const stage_options options = {"egl", WIDTH, HEIGHT, 0.0, 24, 8, hide, finite_far, replace};
-    const stage_wish wish = {GN_METHOD_AUTO, 0, 1, 0, 1};
+    const stage_options options = {"egl", WIDTH, HEIGHT, 0.0, 24, 8, hide, finite_far, replace, 0, 0.0};
+    const stage_wish wish = {.method = GN_METHOD_AUTO, .casting = 1, .light_count = 1, .unbounded = 1};
     scene loaded;
     stage *s;
     int status;

@@ -219,7 +219,7 @@ static void the_promised_state_holds(void **state)
     for (int i = 0; i < STATES; i++) {
         const GLfloat *wanted = states[i].touched ? fresh.values[i] : before.values[i];
 
-        if (states[i].name == GL_VIEWPORT) {
+        if (states[i].name == GL_VIEWPORT || states[i].name == GL_SCISSOR_BOX) {
             const GLfloat whole[4] = {0, 0, SIZE, SIZE};
 
             assert_memory_equal(after.values[i], whole, sizeof whole);

@@ -26,10 +26,10 @@ gn_result test_frame_make(test_frame *f, gn_context *context, gn_gles *gl, gn_ta
             return result;
         f->objects[i].mesh = f->meshes[i];
         gn_mat4_identity(f->objects[i].model);
-        f->objects[i].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN;
+        f->objects[i].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN | GN_DRAWN_BACKS;
     }
-    f->lights[0] = (gn_light){GN_LIGHT_POINT, {2, 5, 3}, {0, 0, 0}};
-    f->lights[1] = (gn_light){GN_LIGHT_DIRECTIONAL, {0, 0, 0}, {0.3, 1, 0.2}};
+    f->lights[0] = (gn_light){.kind = GN_LIGHT_POINT, .position = {2, 5, 3}};
+    f->lights[1] = (gn_light){.kind = GN_LIGHT_DIRECTIONAL, .towards = {0.3, 1, 0.2}};
     gn_mat4_identity(f->scene.camera.world);
     f->scene.camera.world[13] = 3;
     f->scene.camera.world[14] = 8;

@@ -114,7 +114,7 @@ done
 ok "one-sided by name" "$gnomon" render $scenes/colours.gltf --mask-dir "$tmp/hidden" --size 160x120 --platform egl --method zfail/one-sided --report "$tmp/o.json"
 ok "gives the same" diff -r "$tmp/egl" "$tmp/hidden"
 ok "and is reported" has "$tmp/o.json" 'zfail/one-sided'
-ok "--explain says why" sh -c "$gnomon render $scenes/cube_point.gltf --size 16x16 --explain --hide two-sided-stencil | grep -q '^light 0: stencil/one-sided: exact for any view; one side at a time, since two-sided-stencil is hidden$'"
+ok "--explain says why" sh -c "$gnomon render $scenes/cube_point.gltf --size 16x16 --explain --hide two-sided-stencil | grep -q '^light 0: stencil/one-sided: exact for any view; one side at a time, since two-sided-stencil is hidden; '"
 
 ok "and each caster's case" sh -c "$gnomon render $scenes/near_cuts_volume.gltf --size 64x48 --explain > $tmp/cases.txt && grep -q 'case 1, by z-pass.*; sides' $tmp/cases.txt && grep -q 'case 3, by z-fail.*light cap' $tmp/cases.txt"
 printf '{"asset": {"version": "2.0"}}' > "$tmp/empty.gltf"

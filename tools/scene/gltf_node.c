@@ -221,6 +221,53 @@ static int collect(gltf *g, scene *s, size_t walked)
     return 1;
 }
 
+/* Whether a node is another or under it. */
+static int is_under(const scene *s, int node, int other)
+{
+    while (node != SCENE_NONE && node != other)
+        node = s->nodes[node].parent;
+    return node == other;
+}
+
+/* extras.gnomon.exempt of a light's node: nodes that do not cast in it, with all that is under them. */
+static int read_exempt(gltf *g, scene *s, scene_light *l)
+{
+    const cJSON *extras = gltf_get(gltf_get(g->lists[GLTF_NODE].items[l->node], "extras"), "gnomon");
+    const cJSON *array, *item;
+    char where[GLTF_WHERE];
+
+    snprintf(where, sizeof where, "node %d: extras.gnomon", l->node);
+    if (!gltf_get_array(g, where, extras, "exempt", &array))
+        return 0;
+    if (!array || !cJSON_GetArraySize(array))
+        return 1;
+    l->exempt = gltf_alloc(g, s->instance_count, sizeof *l->exempt);
+    if (!l->exempt)
+        return 0;
+    for (size_t i = 0; i < s->instance_count; i++) {
+        int is_exempt = 0;
+
+        cJSON_ArrayForEach (item, array) {
+            int node;
+
+            if (!gltf_index(g, where, "exempt", item, GLTF_NODE, &node))
+                return 0;
+            is_exempt |= is_under(s, s->instances[i].node, node);
+        }
+        if (is_exempt)
+            l->exempt[l->exempt_count++] = (uint32_t)i;
+    }
+    return 1;
+}
+
+static int read_exempts(gltf *g, scene *s)
+{
+    for (size_t i = 0; i < s->light_count; i++)
+        if (!read_exempt(g, s, &s->lights[i]))
+            return 0;
+    return 1;
+}
+
 int gltf_read_nodes(gltf *g, scene *s)
 {
     const scene_node plain = {.parent = SCENE_NONE,
@@ -251,5 +298,5 @@ int gltf_read_nodes(gltf *g, scene *s)
     for (size_t i = 0; i < count; i++)
         if (!read_children(g, s, (int)i))
             return 0;
-    return check_forest(g, s) && make_walk(g, s, &walked) && collect(g, s, walked);
+    return check_forest(g, s) && make_walk(g, s, &walked) && collect(g, s, walked) && read_exempts(g, s);
 }

@@ -65,6 +65,8 @@ void scene_free(scene *s)
     free(s->materials);
     free(s->meshes);
     free(s->instances);
+    for (size_t i = 0; i < s->light_count; i++)
+        free(s->lights[i].exempt);
     free(s->lights);
     free(s->nodes);
     memset(s, 0, sizeof *s);

@@ -73,6 +73,8 @@ typedef struct scene_light {
     double inner, outer; /* cone angles from the axis, radians */
     double position[3];  /* world, set by scene_pose(); 0 for directional */
     double towards[3];   /* world unit vector, against the direction in which the light shines; set by scene_pose() */
+    uint32_t *exempt;    /* [exempt_count] instances that do not cast in it, from the extras of the light's node */
+    size_t exempt_count;
 } scene_light;
 
 typedef struct scene_camera {

@@ -9,6 +9,8 @@
 #include "counted_gl.h"
 #include "gn_matrix.h"
 
+#define MANY_LIGHTS 3 /* from which on drawing backs once costs less than caps */
+
 /* The libc port, counting what the library asks for. */
 static void *counting_resize(void *user, void *block, size_t old_size, size_t new_size)
 {
@@ -17,6 +19,21 @@ static void *counting_resize(void *user, void *block, size_t old_size, size_t ne
 
     *allocations += new_size != 0;
     return libc_port.resize(NULL, block, old_size, new_size);
+}
+
+/* The most of a light that any material gives back, as surface.frag computes it: all channels white, seen at the best angle. */
+static double find_brightest(const scene *s)
+{
+    double most = 1.0;
+
+    for (size_t i = 0; i < s->material_count; i++) {
+        const scene_material *m = &s->materials[i];
+        const double roughness = fmax(m->roughness, 0.1), shininess = fmax(2.0 / pow(roughness, 4.0) - 2.0, 1.0);
+        const double shine = (1.0 - roughness) * (shininess + 8.0) / 8.0;
+
+        most = fmax(most, 1.0 - m->metallic + (0.04 + 0.96 * m->metallic) * shine);
+    }
+    return most;
 }
 
 /* Irradiance of a light at a point, its brightest channel, cones left aside. */
@@ -70,6 +87,10 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
     for (int i = 0; i < 3; i++)
         s->centre[i] = 0.5 * (given->bounds_min[i] + given->bounds_max[i]);
     s->finite_far = options->finite_far;
+    s->soft_count = options->soft_count ? options->soft_count : 1;
+    s->soft_radius = options->soft_radius;
+    s->light_count = (uint32_t)given->light_count * s->soft_count;
+    s->brightest = find_brightest(given);
     s->exposure = options->exposure > 0.0 ? options->exposure : default_exposure(s);
     s->platform = platform_open(options->platform, &wanted, why);
     if (!s->platform) {
@@ -122,29 +143,30 @@ static void spin(const stage *s, double degrees, double p[3], int is_point)
     p[2] = z * cos(a) - x * sin(a) + (is_point ? s->centre[2] : 0.0);
 }
 
-static void pose_light(stage *s, size_t index, double degrees)
+/* What the library is told of a light: all that bounds it. */
+static void bound_light(const stage *s, gn_light *light, const scene_light *from)
 {
-    const scene_light *from = &s->scene->lights[index];
-    const int is_sun = from->kind == SCENE_DIRECTIONAL;
-    stage_light *to = &s->shading[index];
-    gn_light *light = &s->lights[index];
+    for (int i = 0; i < 3; i++)
+        light->color[i] = from->color[i] * from->intensity * s->exposure * s->brightest;
+    light->attenuation[2] = from->kind == SCENE_DIRECTIONAL ? 0.0 : 1.0;
+    light->range = from->kind == SCENE_DIRECTIONAL ? 0.0 : from->range;
+    /* a cone of a right angle bounds nothing */
+    light->cone = from->kind == SCENE_SPOT && from->outer < 1.57 ? from->outer : 0.0;
+    light->exempt = from->exempt;
+    light->exempt_count = (uint32_t)from->exempt_count;
+}
 
-    memset(light, 0, sizeof *light);
-    light->kind = is_sun ? GN_LIGHT_DIRECTIONAL : from->kind == SCENE_SPOT ? GN_LIGHT_SPOT : GN_LIGHT_POINT;
+/* One of a scene's light's parts as shaders want it. */
+static void shade_light(const stage *s, stage_light *to, const gn_light *light, const scene_light *from)
+{
+    const int is_sun = light->kind == GN_LIGHT_DIRECTIONAL;
+
+    memset(to, 0, sizeof *to);
     for (int i = 0; i < 3; i++) {
-        to->position[i] = from->position[i];
-        to->towards[i] = from->towards[i];
-        to->color[i] = (float)(from->color[i] * from->intensity * s->exposure);
-    }
-    if (degrees != 0.0) {
-        spin(s, degrees, to->position, 1);
-        spin(s, degrees, to->towards, 0);
-    }
-    for (int i = 0; i < 3; i++) {
-        light->position[i] = to->position[i];
-        light->towards[i] = to->towards[i];
-        to->shader_position[i] = (float)(is_sun ? to->towards[i] : to->position[i] - s->scene->camera.world[12 + i]);
-        to->axis[i] = (float)-to->towards[i];
+        to->color[i] = (float)(from->color[i] * from->intensity * s->exposure / s->soft_count);
+        to->shader_position[i] =
+            (float)(is_sun ? light->towards[i] : light->position[i] - s->scene->camera.world[12 + i]);
+        to->axis[i] = (float)-light->towards[i];
     }
     to->shader_position[3] = is_sun ? 0.0f : 1.0f;
     to->axis[3] = from->range > 0.0 ? (float)(1.0 / from->range) : 0.0f;
@@ -156,6 +178,26 @@ static void pose_light(stage *s, size_t index, double degrees)
         to->cone[0] = (float)scale;
         to->cone[1] = (float)(-cos(from->outer) * scale);
     }
+}
+
+static void pose_light(stage *s, size_t index, double degrees)
+{
+    const scene_light *from = &s->scene->lights[index];
+    const int is_sun = from->kind == SCENE_DIRECTIONAL;
+    gn_light *lights = s->lights + index * s->soft_count, light;
+
+    memset(&light, 0, sizeof light);
+    light.kind = is_sun ? GN_LIGHT_DIRECTIONAL : from->kind == SCENE_SPOT ? GN_LIGHT_SPOT : GN_LIGHT_POINT;
+    memcpy(light.position, from->position, sizeof light.position);
+    memcpy(light.towards, from->towards, sizeof light.towards);
+    if (degrees != 0.0) {
+        spin(s, degrees, light.position, 1);
+        spin(s, degrees, light.towards, 0);
+    }
+    bound_light(s, &light, from);
+    gn_light_soften(s->context, &light, s->soft_radius, s->soft_count, lights);
+    for (uint32_t i = 0; i < s->soft_count; i++)
+        shade_light(s, &s->shading[index * s->soft_count + i], &lights[i], from);
 }
 
 void stage_pose(stage *s, double seconds, double spin_degrees)
@@ -184,21 +226,74 @@ static void place_camera(const stage *s, gn_camera *camera)
     }
 }
 
-/* Closed, wound outward and single-sided, or double-sided throughout, and nothing cut: what could be seen is drawn. */
-static unsigned flags_of(const stage *s, const scene_instance *instance, int casting)
+/* Whether the near rectangle may lie in the object's box: then the eye may see insides. */
+static int eye_may_be_inside(const gn_camera *camera, const gn_object *object)
+{
+    const gn_mesh_info *info = gn_mesh_get_info(object->mesh);
+    const double reach = camera->orthographic ? 1.0 : camera->znear;
+    const double near_low[3] = {camera->left * reach, camera->bottom * reach, -camera->znear};
+    const double near_high[3] = {camera->right * reach, camera->top * reach, -camera->znear};
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+
+    for (int corner = 0; corner < 8; corner++) {
+        double p[3];
+
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] =
+                (double)(corner >> axis & 1 ? info->box_max[axis] : info->box_min[axis]) + (double)info->centre[axis];
+        gn_mat4_transform(p, object->model, p, 1.0);
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] -= camera->world[12 + axis];
+        for (int axis = 0; axis < 3; axis++) {
+            const double *a = camera->world + 4 * axis, along = a[0] * p[0] + a[1] * p[1] + a[2] * p[2];
+
+            low[axis] = fmin(low[axis], along);
+            high[axis] = fmax(high[axis], along);
+        }
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const double margin = 1e-5 * (fabs(low[axis]) + fabs(high[axis]) + camera->znear);
+
+        if (low[axis] > near_high[axis] + margin || high[axis] < near_low[axis] - margin)
+            return 0;
+    }
+    return 1;
+}
+
+/* Backs are drawn of what is double-sided throughout. Those of what is closed, wound outward and seen from outside may be
+ * drawn unseen: once, after the fronts, instead of a light cap for each light. */
+static unsigned flags_of(const stage *s, const scene_instance *instance, const gn_camera *camera,
+                         const gn_object *object, const stage_wish *wish)
 {
     const scene_mesh *m = &s->scene->meshes[instance->mesh];
-    const gn_mesh_info *info = gn_mesh_get_info(s->meshes[instance->mesh].mesh);
-    const int closed = info->outward_part_count == info->part_count;
-    unsigned flags = GN_DRAWN | (instance->casts && casting ? GN_CASTS : 0u) | (instance->receives ? GN_RECEIVES : 0u);
+    const gn_mesh_info *info = gn_mesh_get_info(object->mesh);
+    const int hides_backs = wish->light_count >= MANY_LIGHTS && info->outward_part_count == info->part_count &&
+                            !eye_may_be_inside(camera, object);
+    unsigned flags = GN_DRAWN | GN_DRAWN_BACKS | (instance->casts && wish->casting ? GN_CASTS : 0u) |
+                     (instance->receives ? GN_RECEIVES : 0u);
 
     for (size_t r = 0; r < m->range_count; r++) {
         const scene_material *material = &s->scene->materials[m->ranges[r].material];
 
-        if (material->alpha == SCENE_MASK || (!material->double_sided && !closed))
+        if (material->alpha == SCENE_MASK)
             flags &= ~(unsigned)GN_DRAWN;
+        if (!material->double_sided && !hides_backs)
+            flags &= ~(unsigned)GN_DRAWN_BACKS;
     }
     return flags;
+}
+
+/* A light without what bounds it. */
+static void unbind(gn_light *light)
+{
+    const gn_light was = *light;
+
+    memset(light, 0, sizeof *light);
+    light->kind = was.kind;
+    memcpy(light->position, was.position, sizeof was.position);
+    memcpy(light->towards, was.towards, sizeof was.towards);
+    light->exempt = was.exempt;
+    light->exempt_count = was.exempt_count;
 }
 
 int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
@@ -214,15 +309,22 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
 
         s->objects[i].mesh = s->meshes[instance->mesh].mesh;
         memcpy(s->objects[i].model, instance->world, sizeof s->objects[i].model);
-        s->objects[i].flags = flags_of(s, instance, wish->casting);
+        s->objects[i].flags = flags_of(s, instance, &frame.camera, &s->objects[i], wish);
     }
-    frame.lights = s->lights + wish->first_light;
+    for (uint32_t i = 0; i < s->light_count; i++) {
+        s->planned[i] = s->lights[i];
+        if (wish->unbounded)
+            unbind(&s->planned[i]);
+    }
+    frame.lights = s->planned + wish->first_light;
     frame.light_count = wish->light_count;
     frame.objects = s->objects;
     frame.object_count = (uint32_t)s->scene->instance_count;
     frame.target = s->target;
     frame.method = wish->method;
     frame.one_sided = wish->one_sided;
+    frame.blend_once = wish->blend_once;
+    frame.least_light = wish->least_light;
     size = gn_plan_bound(&frame);
     if (size > s->plan_size) {
         free(s->plan_memory);

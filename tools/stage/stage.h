@@ -41,9 +41,8 @@ typedef struct stage_mesh {
     size_t batch_count;
 } stage_mesh;
 
-/* A light as it stands in this frame, and as shaders want it. */
+/* A light as it stands in this frame, and as shaders want it; of soft lights one of their parts. */
 typedef struct stage_light {
-    double position[3], towards[3];
     float shader_position[4], color[3], axis[4], cone[2];
 } stage_light;
 
@@ -62,9 +61,13 @@ typedef struct stage {
     GLuint picked; /* indices of picked triangles, or positions of lines */
     void *scratch; /* for them: the largest mesh's */
     int8_t *facing;
-    gn_object *objects; /* [scene.instance_count] */
-    gn_light *lights;
-    stage_light *shading;
+    gn_object *objects;   /* [scene.instance_count] */
+    gn_light *planned;    /* [light_count] as the last plan had them */
+    gn_light *lights;     /* [light_count]: the scene's, or soft_count for each of them in a row */
+    stage_light *shading; /* the same */
+    uint32_t light_count, soft_count;
+    double soft_radius;
+    double brightest; /* what a material gives back of a light at most */
     double centre[3]; /* of the scene at its start */
     double exposure;
     uint32_t shader_lights; /* lights in one shader here: as many as the GL has uniforms for */
@@ -83,6 +86,8 @@ typedef struct stage_options {
     const char *hide;  /* capabilities to pretend absent, or NULL */
     double finite_far; /* the camera's own far plane, there and nowhere else; 0: as the scene says */
     gn_proc (*replace)(const char *name, gn_proc real); /* tests: a function of GL to take instead; NULL: none */
+    uint32_t soft_count;                                /* lights in place of each; 0: 1 */
+    double soft_radius;
 } stage_options;
 
 /* Opens a context and uploads the scene. Returns 0, or an exit status of the command (1 or 3) with a message; *out
@@ -98,7 +103,10 @@ void stage_pose(stage *s, double seconds, double spin_degrees);
 typedef struct stage_wish {
     gn_method method;
     int one_sided, casting;
-    uint32_t first_light, light_count;
+    uint32_t first_light, light_count; /* of the stage's lights */
+    int unbounded;                     /* lights have no range, cone or reach: for masks */
+    int blend_once;
+    double least_light;
 } stage_wish;
 
 /* Returns 0, or an exit status of the command (1 or 3) with a message. */
@@ -138,6 +146,7 @@ typedef struct stage_look {
     const float *flat;                 /* one colour instead, or NULL */
     int receivers;                     /* 1: objects that receive; 0: the rest; -1: all */
     int facing_light;                  /* only triangles whose seen side looks at this light; -1: all */
+    int backs;                         /* after the fronts the backs of objects that say they are drawn */
 } stage_look;
 
 void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look);

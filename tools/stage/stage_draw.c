@@ -119,7 +119,7 @@ static void draw_facing(stage *s, const stage_mesh *m, const stage_batch *batch,
 }
 
 static void draw_batch(stage *s, const stage_mesh *m, const stage_batch *batch, const scene_material *material,
-                       const stage_look *look)
+                       unsigned flags, const stage_look *look)
 {
     const gn_gl *gl = s->gl;
 
@@ -136,6 +136,11 @@ static void draw_batch(stage *s, const stage_mesh *m, const stage_batch *batch, 
         gl->glEnable(GL_CULL_FACE);
     gl->glCullFace(GL_BACK);
     gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, m->indices);
+    gl->glDrawElements(GL_TRIANGLES, (GLsizei)(3 * batch->triangle_count), GL_UNSIGNED_SHORT,
+                       (const void *)(uintptr_t)(batch->first_index * sizeof(uint16_t)));
+    if (!look->backs || material->double_sided || !(flags & GN_DRAWN_BACKS))
+        return;
+    gl->glCullFace(GL_FRONT); /* fronts win where both have the same depth */
     gl->glDrawElements(GL_TRIANGLES, (GLsizei)(3 * batch->triangle_count), GL_UNSIGNED_SHORT,
                        (const void *)(uintptr_t)(batch->first_index * sizeof(uint16_t)));
 }
@@ -167,7 +172,7 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
         set_object(s, p, instance, object);
         if (!look->flat && look->light_count)
             set_lights(s, p, look->first_light, look->light_count);
-        draw_batch(s, m, &m->batches[b], material, look);
+        draw_batch(s, m, &m->batches[b], material, object->flags, look);
     }
 }
 

@@ -84,7 +84,7 @@ void stage_show_silhouettes(stage *s)
 
         if (record->chunk != 0)
             continue;
-        count = collect_edges(s, &s->objects[record->object], &s->lights[record->light]);
+        count = collect_edges(s, &s->objects[record->object], &s->planned[record->light]);
         gl->glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 3 * sizeof(float), NULL);
         gl->glUniformMatrix4fv(p->clip, 1, GL_FALSE, object->matrix);
         gl->glUniform4fv(p->flat, 1, colors[record->light % 4]);
@@ -108,7 +108,7 @@ static void add_fragments(stage *s, uint32_t first, uint32_t count)
 void stage_draw_layers(stage *s)
 {
     static const float one[4] = {0, 1.0f / 255.0f, 0, 0};
-    const stage_look look = {0, 0, 0, one, -1, -1};
+    const stage_look look = {0, 0, 0, one, -1, -1, 0};
 
     over_the_frame(s, GL_ONE, GL_ONE);
     s->gl->glDisable(GL_DEPTH_TEST);

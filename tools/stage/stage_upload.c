@@ -136,9 +136,10 @@ int stage_upload(stage *s, char message[SCENE_MESSAGE])
     s->meshes = calloc(from->mesh_count + 1, sizeof *s->meshes);
     s->textures = calloc(from->texture_count + 1, sizeof *s->textures);
     s->objects = calloc(from->instance_count + 1, sizeof *s->objects);
-    s->lights = calloc(from->light_count + 1, sizeof *s->lights);
-    s->shading = calloc(from->light_count + 1, sizeof *s->shading);
-    if (!s->meshes || !s->textures || !s->objects || !s->lights || !s->shading)
+    s->lights = calloc((size_t)s->light_count + 1, sizeof *s->lights);
+    s->planned = calloc((size_t)s->light_count + 1, sizeof *s->planned);
+    s->shading = calloc((size_t)s->light_count + 1, sizeof *s->shading);
+    if (!s->meshes || !s->textures || !s->objects || !s->lights || !s->planned || !s->shading)
         return fail(message, "no memory for the scene's objects");
     for (size_t i = 0; i < from->mesh_count; i++) {
         if (!upload_mesh(s, &from->meshes[i], &s->meshes[i], message))
@@ -190,6 +191,7 @@ void stage_release(stage *s)
     free(s->textures);
     free(s->objects);
     free(s->lights);
+    free(s->planned);
     free(s->shading);
     free(s->scratch);
     free(s->facing);

@@ -1,0 +1,162 @@
+/* hull.c - convex bodies of view space, and whether two of them are apart.
+ *
+ * Boxes are of object space, so that in view space they are parallelepipeds, sheared ones too. A body is the hull of
+ * points and of directions, in which it goes on without end. Two bodies are apart when some axis separates them: the
+ * normals of faces, and the products of edges, are tried by those who know them. A margin keeps rounding on the safe side;
+ * where no axis can be told, the bodies touch.
+ *
+ * An axis that was made at right angles to a direction is so but for rounding, and sees no end that way: the shift that the
+ * rounding makes is far below the margin wherever the other body, which has an end, can be touched. */
+#include "gn_matrix.h"
+#include "gni.h"
+
+#include <math.h>
+#include <string.h>
+
+void gni_cross(double out[3], const double a[3], const double b[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+double gni_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16])
+{
+    memset(out, 0, sizeof *out);
+    out->point_count = 8;
+    for (int c = 0; c < 8; c++) {
+        double p[3];
+
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] = (double)(c >> axis & 1 ? info->box_max[axis] : info->box_min[axis]);
+        gn_mat4_transform(out->points[c], model_view, p, 1.0);
+    }
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            out->edges[i][k] = out->points[1 << i][k] - out->points[0][k];
+}
+
+void gni_volume_hull(gni_hull *out, const gni_hull *box, const double light[4])
+{
+    *out = *box;
+    out->direction_count = light[3] == 0.0 ? 1 : 8;
+    for (int i = 0; i < out->direction_count; i++)
+        for (int k = 0; k < 3; k++)
+            out->directions[i][k] = box->points[i][k] * light[3] - light[k];
+    if (light[3] == 0.0)
+        for (int k = 0; k < 3; k++)
+            out->directions[0][k] = -light[k];
+}
+
+/* What the body's points reach along an axis. */
+static void extent(double range[2], const double axis[3], const gni_hull *h)
+{
+    range[0] = INFINITY;
+    range[1] = -INFINITY;
+    for (int i = 0; i < h->point_count; i++) {
+        const double at = gni_dot(axis, h->points[i]);
+
+        range[0] = fmin(range[0], at);
+        range[1] = fmax(range[1], at);
+    }
+}
+
+/* And its directions. */
+static void extend(double range[2], const double axis[3], double axis_length, const gni_hull *h)
+{
+    for (int i = 0; i < h->direction_count; i++) {
+        const double along = gni_dot(axis, h->directions[i]);
+        const double least = 1e-12 * axis_length * sqrt(gni_dot(h->directions[i], h->directions[i]));
+
+        if (along > least)
+            range[1] = INFINITY;
+        if (along < -least)
+            range[0] = -INFINITY;
+    }
+}
+
+int gni_separates(const double axis[3], const gni_hull *a, const gni_hull *b)
+{
+    const double length = sqrt(gni_dot(axis, axis));
+    double of_a[2], of_b[2], margin;
+
+    if (!(length > 0.0))
+        return 0;
+    extent(of_a, axis, a);
+    extent(of_b, axis, b);
+    margin = GNI_MARGIN * (fmax(fabs(of_a[0]), fabs(of_a[1])) + fmax(fabs(of_b[0]), fabs(of_b[1])));
+    extend(of_a, axis, length, a);
+    extend(of_b, axis, length, b);
+    return of_a[0] > of_b[1] + margin || of_b[0] > of_a[1] + margin;
+}
+
+int gni_volume_misses(const gni_hull *volume, const double light[4], const gni_hull *box)
+{
+    double axis[3];
+
+    for (int i = 0; i < 3; i++) {
+        gni_cross(axis, box->edges[i], box->edges[(i + 1) % 3]);
+        if (gni_separates(axis, volume, box))
+            return 1;
+        gni_cross(axis, volume->edges[i], volume->edges[(i + 1) % 3]);
+        if (gni_separates(axis, volume, box))
+            return 1;
+    }
+    for (int i = 0; i < 3; i++) /* the planes through the light and an edge of the caster's box */
+        for (int corner = 0; corner < 8; corner++) {
+            double spoke[3];
+
+            if (corner >> i & 1)
+                continue;
+            for (int k = 0; k < 3; k++)
+                spoke[k] = volume->points[corner][k] * light[3] - light[k];
+            gni_cross(axis, spoke, volume->edges[i]);
+            if (gni_separates(axis, volume, box))
+                return 1;
+        }
+    return 0;
+}
+
+int gni_is_outside(const gni_hull *hull, const double plane[4])
+{
+    double most = -INFINITY, scale = fabs(plane[3]);
+
+    for (int i = 0; i < hull->point_count; i++) {
+        const double *p = hull->points[i];
+
+        most = fmax(most, gni_dot(plane, p) + plane[3]);
+        for (int k = 0; k < 3; k++)
+            scale = fmax(scale, fabs(plane[k] * p[k]));
+    }
+    for (int i = 0; i < hull->direction_count; i++) {
+        const double *d = hull->directions[i];
+        double reach = 0.0;
+
+        for (int k = 0; k < 3; k++)
+            reach = fmax(reach, fabs(plane[k] * d[k]));
+        if (gni_dot(plane, d) >= -GNI_MARGIN * reach)
+            return 0;
+    }
+    return most < -GNI_MARGIN * scale;
+}
+
+int gni_light_is_outside(const gni_hull *box, const double light[4])
+{
+    const gni_hull at = {{{light[0], light[1], light[2]}}, 1, {{0}}, 0, {{0}}};
+
+    if (light[3] == 0.0)
+        return 1;
+    for (int i = 0; i < 3; i++) {
+        double axis[3];
+
+        gni_cross(axis, box->edges[i], box->edges[(i + 1) % 3]);
+        if (gni_separates(axis, &at, box))
+            return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,89 @@
+/* plan_check.c - what a scene must be for a plan: every number finite and in its range. The first that is not is named. */
+#include "gni_plan.h"
+
+#include <math.h>
+
+static int all_finite(const double *v, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (!isfinite(v[i]))
+            return 0;
+    return 1;
+}
+
+/* What bounds a light; zero is lawful everywhere. */
+static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned long i, uint32_t object_count)
+{
+    const int has_cone = l->kind == GN_LIGHT_SPOT && l->cone != 0.0;
+
+    if (!(l->range >= 0.0 && isfinite(l->range)))
+        return gn_fail(context, GN_E_ARG, "plan: light %lu has a range of %g", i, l->range);
+    if (!isfinite(l->cone) || (has_cone && !(l->cone > 0.0 && l->cone < 1.5707963267948966)))
+        return gn_fail(context, GN_E_ARG, "plan: light %lu has a cone of %g radians about its axis", i, l->cone);
+    if (has_cone && (!all_finite(l->towards, 3) || !(gni_dot(l->towards, l->towards) > 0.0)))
+        return gn_fail(context, GN_E_ARG, "plan: light %lu has a cone along %g %g %g", i, l->towards[0], l->towards[1],
+                       l->towards[2]);
+    for (int c = 0; c < 3; c++) {
+        if (!(l->color[c] >= 0.0 && isfinite(l->color[c])))
+            return gn_fail(context, GN_E_ARG, "plan: light %lu has a color of %g", i, l->color[c]);
+        if (!(l->attenuation[c] >= 0.0 && isfinite(l->attenuation[c])))
+            return gn_fail(context, GN_E_ARG, "plan: light %lu has an attenuation of %g", i, l->attenuation[c]);
+        if (!isfinite(l->box_min[c]) || !isfinite(l->box_max[c]) || l->box_min[c] > l->box_max[c])
+            return gn_fail(context, GN_E_ARG, "plan: light %lu has a box from %g to %g", i, l->box_min[c],
+                           l->box_max[c]);
+    }
+    if (l->exempt_count && !l->exempt)
+        return gn_fail(context, GN_E_ARG, "plan: light %lu exempts %lu objects at NULL", i,
+                       (unsigned long)l->exempt_count);
+    for (uint32_t e = 0; e < l->exempt_count; e++)
+        if (l->exempt[e] >= object_count)
+            return gn_fail(context, GN_E_ARG, "plan: light %lu exempts object %lu of %lu", i,
+                           (unsigned long)l->exempt[e], (unsigned long)object_count);
+    return GN_OK;
+}
+
+static gn_result check_light(gn_context *context, const gn_light *l, unsigned long i, uint32_t object_count)
+{
+    const double *v = l->kind == GN_LIGHT_DIRECTIONAL ? l->towards : l->position;
+
+    if ((unsigned)l->kind > GN_LIGHT_DIRECTIONAL)
+        return gn_fail(context, GN_E_ARG, "plan: light %lu is of unknown kind %d", i, (int)l->kind);
+    if (!all_finite(v, 3))
+        return gn_fail(context, GN_E_ARG, "plan: light %lu is at %g %g %g", i, v[0], v[1], v[2]);
+    if (l->kind == GN_LIGHT_DIRECTIONAL && !(gni_dot(v, v) > 0.0))
+        return gn_fail(context, GN_E_ARG, "plan: light %lu comes from no direction: %g %g %g", i, v[0], v[1], v[2]);
+    return check_bounds(context, l, i, object_count);
+}
+
+static gn_result check_object(gn_context *context, const gn_object *o, unsigned long i)
+{
+    const double *m = o->model;
+
+    if (!o->mesh)
+        return gn_fail(context, GN_E_ARG, "plan: object %lu has no mesh", i);
+    if (!all_finite(m, 16))
+        return gn_fail(context, GN_E_ARG, "plan: object %lu: its matrix is not finite", i);
+    if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
+        return gn_fail(context, GN_E_ARG, "plan: object %lu: last row of its matrix is %g %g %g %g, not 0 0 0 1", i,
+                       m[3], m[7], m[11], m[15]);
+    return GN_OK;
+}
+
+gn_result gni_check_scene(gn_context *context, const gn_scene *s)
+{
+    gn_result result;
+
+    if ((s->light_count && !s->lights) || (s->object_count && !s->objects))
+        return gn_fail(context, GN_E_ARG, "plan: NULL array of lights or objects");
+    if (s->target.width == 0 || s->target.height == 0)
+        return gn_fail(context, GN_E_ARG, "plan: target of %lux%lu pixels", (unsigned long)s->target.width,
+                       (unsigned long)s->target.height);
+    if (!(s->least_light >= 0.0 && isfinite(s->least_light)))
+        return gn_fail(context, GN_E_ARG, "plan: the least light that matters is %g", s->least_light);
+    result = gni_check_camera(context, &s->camera);
+    for (uint32_t i = 0; i < s->light_count && result == GN_OK; i++)
+        result = check_light(context, &s->lights[i], i, s->object_count);
+    for (uint32_t i = 0; i < s->object_count && result == GN_OK; i++)
+        result = check_object(context, &s->objects[i], i);
+    return result;
+}

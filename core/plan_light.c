@@ -1,0 +1,394 @@
+/* plan_light.c - one light of a frame: what bounds it, which objects it lights and which of them cast, and its steps
+ * (McGuire 2003, section 6, DetermineShadows).
+ *
+ * *Model only what a scene requires*: the method stencil asks of every light where it is seen, and of every caster whether
+ * it is within reach and whether its volume touches anything that receives, is seen and is lit. What is not, costs
+ * nothing, and the plan says why. A floor on which all stands shadows nothing: flat casters that the eye and the light see
+ * from the same side shadow nothing on that side, nor themselves. Their volumes are left out where their border is out of
+ * view: on the border itself rasterised depths of surface and side may disagree, and both ways of counting do alike.
+ *
+ * The other methods draw every caster in the whole target: they are what stencil is measured by. */
+#include "gn_matrix.h"
+#include "gni_plan.h"
+
+#include <math.h>
+#include <string.h>
+
+void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4])
+{
+    const gn_camera *c = &d->scene->camera;
+    const int is_sun = light->kind == GN_LIGHT_DIRECTIONAL;
+    double v[3];
+    int exponent = 0;
+
+    if (is_sun) /* of any length; a power of two keeps every bit */
+        frexp(fmax(fabs(light->towards[0]), fmax(fabs(light->towards[1]), fabs(light->towards[2]))), &exponent);
+    for (int i = 0; i < 3; i++)
+        v[i] = is_sun ? ldexp(light->towards[i], -exponent) : light->position[i] - c->world[12 + i];
+    for (int i = 0; i < 3; i++)
+        out[i] = c->world[4 * i] * v[0] + c->world[4 * i + 1] * v[1] + c->world[4 * i + 2] * v[2];
+    out[3] = is_sun ? 0.0 : 1.0;
+}
+
+/* The plane of a planar mesh in view space; 0 when it has none. */
+static int plane_in_view(const gn_object *object, const gn_camera *camera, double plane[4])
+{
+    const gn_mesh *mesh = object->mesh;
+    double model_view[16];
+    uint32_t t = 0;
+
+    if (!mesh->info.planar)
+        return 0;
+    while (mesh->planes[4 * (size_t)t] == 0.0 && mesh->planes[4 * (size_t)t + 1] == 0.0 &&
+           mesh->planes[4 * (size_t)t + 2] == 0.0)
+        t++; /* one has an area, since the mesh is planar */
+    gni_model_view(model_view, camera, object->model, mesh->info.centre);
+    {
+        double v[3][3], a[3], b[3];
+
+        for (int k = 0; k < 3; k++) {
+            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
+            const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
+
+            gn_mat4_transform(v[k], model_view, given, 1.0);
+        }
+        for (int k = 0; k < 3; k++) {
+            a[k] = v[1][k] - v[0][k];
+            b[k] = v[2][k] - v[0][k];
+        }
+        gni_cross(plane, a, b);
+        plane[3] = -gni_dot(plane, v[0]);
+    }
+    return gni_dot(plane, plane) > 0.0;
+}
+
+/* For a flat caster: its plane, positive where the light is, if the eye is there too and all of the caster is drawn. */
+static int lit_side(const gni_draft *d, uint32_t object_index, double plane[4])
+{
+    const gn_camera *camera = &d->scene->camera;
+    const gn_object *object = &d->scene->objects[object_index];
+    const double *light = d->bounds.light;
+    const double front = d->objects[object_index].mirrored ? -1.0 : 1.0;
+    double of_light, of_eye;
+
+    if (!(object->flags & GN_DRAWN) || !plane_in_view(object, camera, plane))
+        return 0;
+    of_light = gni_dot(plane, light) + plane[3] * light[3];
+    of_eye = camera->orthographic ? plane[2] : plane[3]; /* the eye is at 0 0 0, or infinitely far along z */
+    if (!(object->flags & GN_DRAWN_BACKS) && !(object->mesh->info.planar == 2 && front * of_eye > 0.0))
+        return 0;
+    if (of_light < 0.0)
+        for (int k = 0; k < 4; k++)
+            plane[k] = -plane[k];
+    return (of_light > 0.0 && of_eye > 0.0) || (of_light < 0.0 && of_eye < 0.0);
+}
+
+/* Whether the border of a flat caster, all of which casts, is out of view. */
+static int border_is_unseen(const gni_draft *d, uint32_t object)
+{
+    const gn_mesh *mesh = d->scene->objects[object].mesh;
+    double model_view[16];
+
+    gni_model_view(model_view, &d->scene->camera, d->scene->objects[object].model, mesh->info.centre);
+    for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
+        const uint32_t uses = mesh->edge_uses[e + 1] - mesh->edge_uses[e];
+        const uint32_t *use = mesh->uses + mesh->edge_uses[e], corner = use[0] & GNI_USE_CORNER;
+        gni_hull edge = {{{0}}, 2, {{0}}, 0, {{0}}};
+
+        if (uses == 2 && (use[0] ^ use[1]) & GNI_USE_DOWN)
+            continue; /* inside */
+        for (uint32_t i = 0; i < 2; i++) {
+            const uint32_t end = i == 0 ? corner : corner % 3 == 2 ? corner - 2 : corner + 1;
+            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[end];
+            const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
+
+            gn_mat4_transform(edge.points[i], model_view, given, 1.0);
+        }
+        if (gni_may_be_seen(&d->seen, &edge))
+            return 0;
+    }
+    return 1;
+}
+
+static int lies_before(const gni_hull *box, const double plane[4])
+{
+    double least = INFINITY, scale = fabs(plane[3]);
+
+    for (int i = 0; i < 8; i++) {
+        least = fmin(least, gni_dot(plane, box->points[i]) + plane[3]);
+        for (int k = 0; k < 3; k++)
+            scale = fmax(scale, fabs(plane[k] * box->points[i][k]));
+    }
+    return least >= -GNI_MARGIN * scale;
+}
+
+/* Whether the volume may touch something that receives, is seen and lit. plane: of lit_side(), or NULL. */
+static int shadows_anything(const gni_draft *d, uint32_t object, const gni_hull *volume, const double *plane)
+{
+    const int is_flat = plane && border_is_unseen(d, object);
+
+    if (!d->receivers_are_known)
+        return 1;
+    for (uint32_t i = 0; i < d->scene->object_count; i++) {
+        if (!(d->is_in[i] & GNI_IN_LIT) || !(d->scene->objects[i].flags & GN_RECEIVES))
+            continue;
+        if (is_flat && (i == object || lies_before(&d->boxes[i], plane)))
+            continue;
+        if (i == object || !gni_volume_misses(volume, d->bounds.light, &d->boxes[i]))
+            return 1;
+    }
+    return 0;
+}
+
+static int is_exempt(const gn_light *light, uint32_t object)
+{
+    for (uint32_t i = 0; i < light->exempt_count; i++)
+        if (light->exempt[i] == object)
+            return 1;
+    return 0;
+}
+
+/* Why a caster is not drawn; else fills its case. */
+static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand)
+{
+    const gn_light *light = &d->scene->lights[d->light];
+    const gn_method method = d->lights[d->light].method;
+    const unsigned flags = d->scene->objects[object].flags, all_drawn = GN_DRAWN | GN_DRAWN_BACKS;
+    gni_hull volume;
+    double plane[4];
+    int is_flat;
+
+    at_hand->is_drawn = (flags & all_drawn) == all_drawn;
+    at_hand->number = method == GN_METHOD_ZPASS ? 1 : 3;
+    at_hand->seen = GNI_SEES_CASTER | GNI_SEES_FAR | GNI_SEES_VOLUME;
+    if (!(flags & GN_CASTS))
+        return GN_SKIP_NO_CASTER;
+    if (is_exempt(light, object))
+        return GN_SKIP_EXEMPT;
+    if (method != GN_METHOD_STENCIL)
+        return GN_SKIP_NOT;
+    if (!gni_may_cast(&d->bounds, &d->boxes[object]))
+        return GN_SKIP_OUT_OF_REACH;
+    gni_volume_hull(&volume, &d->boxes[object], d->bounds.light);
+    gni_find_case(at_hand, &d->seen, &d->boxes[object], &volume, d->bounds.light);
+    if (!(at_hand->seen & GNI_SEES_VOLUME))
+        return GN_SKIP_OUT_OF_VIEW;
+    is_flat = lit_side(d, object, plane);
+    at_hand->is_drawn = is_flat || (flags & all_drawn) == all_drawn;
+    return shadows_anything(d, object, &volume, is_flat ? plane : NULL) ? GN_SKIP_NOT : GN_SKIP_NO_RECEIVER;
+}
+
+/* Records of all casters, in one batch or in as many as it takes. */
+static gn_result add_casters(gni_draft *d)
+{
+    gn_plan_light *about = &d->lights[d->light];
+    gn_result result = GN_OK;
+
+    about->casters = about->skipped_casters = 0;
+    memset(about->cases, 0, sizeof about->cases);
+    d->casting_count = d->cheap_layers = 0;
+    for (uint32_t i = 0; i < d->scene->object_count && result == GN_OK; i++) {
+        gn_plan_caster *caster = &d->casters[(size_t)d->light * d->scene->object_count + i];
+        const uint32_t before = d->plan->record_count;
+        gni_case at_hand;
+
+        memset(caster, 0, sizeof *caster);
+        caster->skip = (uint8_t)look_at(d, i, &at_hand);
+        d->is_in[i] &= (uint8_t)~GNI_IN_CAST;
+        if (d->layers)
+            d->cheap_of[i] = 0;
+        if (caster->skip == GN_SKIP_NOT) {
+            gn_object_casting(&d->scene->objects[i], &d->scene->lights[d->light], d->casting);
+            result = gni_add_caster(d, i, &at_hand);
+        }
+        if (d->plan->record_count > before) {
+            d->is_in[i] |= GNI_IN_CAST;
+            about->casters++;
+            about->cases[caster->mcguire_case - 1]++;
+        } else {
+            caster->skip = caster->skip == GN_SKIP_NOT ? GN_SKIP_NO_TRIANGLE : caster->skip;
+            about->skipped_casters += caster->skip != GN_SKIP_NO_CASTER;
+        }
+    }
+    return result;
+}
+
+static void corners_of(const uint32_t scissor[4], uint32_t at[4])
+{
+    for (int i = 0; i < 2; i++) {
+        at[i] = scissor[i];
+        at[2 + i] = scissor[i] + scissor[2 + i];
+    }
+}
+
+static int is_inside(const uint32_t inner[4], const uint32_t outer[4])
+{
+    return inner[0] >= outer[0] && inner[1] >= outer[1] && inner[2] <= outer[2] && inner[3] <= outer[3];
+}
+
+/* A step that zeroes the light's scissor, where the stencil may differ from its reference. */
+static void clean_stencil(gni_draft *d)
+{
+    const gn_plan_light *about = &d->lights[d->light];
+    uint32_t *dirty = d->stain.at, at[4];
+
+    corners_of(about->scissor, at);
+    if (about->stencil.reference != d->stain.reference) { /* then all of it does */
+        dirty[0] = dirty[1] = 0;
+        dirty[2] = d->scene->target.width;
+        dirty[3] = d->scene->target.height;
+        d->stain.reference = about->stencil.reference;
+    }
+    if (at[0] >= dirty[2] || dirty[0] >= at[2] || at[1] >= dirty[3] || dirty[1] >= at[3])
+        return;
+    gni_add_step(d, GN_STEP_ZERO, GN_DRAW_NOTHING, d->light, 0);
+    if (is_inside(dirty, at))
+        memset(dirty, 0, sizeof d->stain.at);
+}
+
+static void stain_stencil(gni_draft *d)
+{
+    uint32_t *dirty = d->stain.at, at[4];
+
+    corners_of(d->lights[d->light].scissor, at);
+    if (dirty[0] >= dirty[2]) {
+        memcpy(dirty, at, sizeof at);
+        return;
+    }
+    for (int i = 0; i < 2; i++) {
+        dirty[i] = dirty[i] < at[i] ? dirty[i] : at[i];
+        dirty[2 + i] = dirty[2 + i] > at[2 + i] ? dirty[2 + i] : at[2 + i];
+    }
+}
+
+/* Volumes and what they stand on: a stencil that is clean where the light is. */
+static gn_result add_volumes(gni_draft *d)
+{
+    gn_plan_light *about = &d->lights[d->light];
+    const gn_plan before = *d->plan;
+    const gni_stain stain = d->stain;
+    gn_result result;
+    int is_long;
+
+    d->is_batched = 0;
+    d->first_of_batch = before.record_count;
+    clean_stencil(d);
+    result = add_casters(d);
+    is_long = !about->stencil.wrap && d->casting_count > (uint64_t)about->stencil.high;
+    if (result == GN_OK && d->layers && !gni_layers_fit(d, (uint32_t)about->stencil.high)) {
+        *d->plan = before;
+        d->stain = stain;
+        gni_split_layout(&about->stencil);
+        about->layers = 0;
+        memset(&d->layers->batch, 0, sizeof d->layers->batch);
+        d->is_batched = 1;
+        clean_stencil(d);
+        result = add_casters(d);
+    }
+    d->plan->warnings |= is_long ? 1u << GN_WARN_OVERFLOW : 0u;
+    if (d->plan->record_count > before.record_count || d->scene->blend_once)
+        stain_stencil(d);
+    gni_end_batch(d, 0);
+    return result;
+}
+
+/* What the light can lighten, and the most that it adds to any of it. */
+static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
+{
+    const gn_scene *s = d->scene;
+    double most = 0.0;
+
+    *any_receiver = !d->receivers_are_known;
+    *any_other = 0;
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        d->is_in[i] = gni_may_be_seen(&d->seen, &d->boxes[i]) && gni_may_be_lit(&d->bounds, &d->boxes[i]) ? GNI_IN_LIT : 0;
+        if (!d->is_in[i])
+            continue;
+        *any_receiver |= (s->objects[i].flags & GN_RECEIVES) != 0;
+        *any_other |= !(s->objects[i].flags & GN_RECEIVES);
+        most = fmax(most, gni_most_light(&d->bounds, &s->lights[d->light], &d->boxes[i]));
+    }
+    return *any_receiver && !d->receivers_are_known ? INFINITY : most;
+}
+
+/* Window depths that the stencil's and the light's passes are kept to: a step of 16 bits more on either side. */
+static void find_depth_bounds(const gni_draft *d, gn_plan_light *about)
+{
+    const gn_camera *camera = &d->scene->camera;
+
+    about->depth_bounds[0] = 0.0;
+    about->depth_bounds[1] = 1.0;
+    if (!gn_target_can(&d->scene->target, GN_CAN_DEPTH_BOUNDS))
+        return;
+    for (int i = 0; i < 2; i++)
+        if (isfinite(d->bounds.distances[i])) {
+            const double depth = gni_depth_of(camera, d->plan->depth_range, d->bounds.distances[i]);
+
+            about->depth_bounds[i] = fmin(fmax(depth + (i ? 2.0 : -2.0) / 65536.0, 0.0), 1.0);
+        }
+}
+
+static gn_result skip_light(gni_draft *d, gn_skip why)
+{
+    gn_plan_light *about = &d->lights[d->light];
+
+    about->skip = why;
+    memset(about->scissor, 0, sizeof about->scissor);
+    for (uint32_t i = 0; i < d->scene->object_count; i++) {
+        gn_plan_caster *caster = &d->casters[(size_t)d->light * d->scene->object_count + i];
+
+        memset(caster, 0, sizeof *caster);
+        caster->skip = d->scene->objects[i].flags & GN_CASTS ? GN_SKIP_LIGHT : GN_SKIP_NO_CASTER;
+        about->skipped_casters += caster->skip == GN_SKIP_LIGHT;
+    }
+    return GN_OK;
+}
+
+gn_result gni_add_light(gni_draft *d, uint32_t light)
+{
+    const gn_scene *s = d->scene;
+    gn_plan_light *about = &d->lights[light];
+    int any_receiver, any_other;
+    double at[4], most;
+    gn_result result = GN_OK;
+
+    d->light = light;
+    about->method = d->choice.method;
+    about->stencil = d->choice.stencil;
+    memcpy(about->reason, d->choice.reason, sizeof about->reason);
+    gni_light_in_view(d, &s->lights[light], at);
+    if (about->method == GN_METHOD_STENCIL)
+        gni_find_bounds(&d->bounds, s, light, at, d->view);
+    else
+        gni_no_bounds(&d->bounds, s, at);
+    about->reach = d->bounds.reach;
+    if (d->bounds.skip != GN_SKIP_NOT)
+        return skip_light(d, d->bounds.skip);
+    memcpy(about->scissor, d->bounds.scissor, sizeof about->scissor);
+    gni_make_view(&d->seen, &s->camera, &s->target, about->scissor);
+    most = find_lit(d, &any_receiver, &any_other);
+    if (about->method == GN_METHOD_STENCIL) {
+        if (!any_receiver && !any_other)
+            return skip_light(d, GN_SKIP_NO_RECEIVER);
+        if (most <= s->least_light) {
+            about->possible_error = most;
+            return skip_light(d, GN_SKIP_UNIMPORTANT);
+        }
+    } else {
+        any_receiver = 1;
+        any_other = d->any_other;
+    }
+    find_depth_bounds(d, about);
+    if (any_receiver) {
+        result = add_volumes(d);
+        gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIGHT, light, 1);
+    }
+    if (any_other) {
+        if (s->blend_once)
+            clean_stencil(d);
+        gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIGHT, light, 0);
+        if (s->blend_once)
+            stain_stencil(d);
+    }
+    return result;
+}
