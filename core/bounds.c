@@ -15,8 +15,8 @@
 #include <math.h>
 #include <string.h>
 
-#define SIDES 8      /* of the pyramid around a cone */
-#define LOOSE 1e-6   /* of the reach: rounding stays inside */
+#define SIDES 8    /* of the pyramid around a cone */
+#define LOOSE 1e-6 /* of the reach: rounding stays inside */
 
 /* The distance at which an attenuation has come down to 1 / factor; INFINITY when it never does. */
 static double distance_of(const double k[3], double factor)

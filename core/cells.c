@@ -106,8 +106,7 @@ static int fit_plane(gni_cells *cells, const gni_hull *boxes, const uint8_t *is_
     return 1;
 }
 
-void gni_fit_cells(gni_cells *cells, const gni_hull *boxes, const uint8_t *is_in, uint32_t count,
-                   const double light[4])
+void gni_fit_cells(gni_cells *cells, const gni_hull *boxes, const uint8_t *is_in, uint32_t count, const double light[4])
 {
     static const double low[2] = {-1, -1}, high[2] = {1, 1};
 

@@ -93,8 +93,8 @@ size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, si
     }
     say(&s, "; %lu casters, %lu left out", (unsigned long)l->casters, (unsigned long)l->skipped_casters);
     if (l->batches > 1)
-        say(&s, "; more layers than %d bits count: %lu batches of up to %lu layers, folded into a flag", l->stencil.bits + 1,
-            (unsigned long)l->batches, (unsigned long)l->layers);
+        say(&s, "; more layers than %d bits count: %lu batches of up to %lu layers, folded into a flag",
+            l->stencil.bits + 1, (unsigned long)l->batches, (unsigned long)l->layers);
     if (plan->blend_once)
         say(&s, "; of coincident surfaces only the first is lit");
     return s.length;
@@ -148,7 +148,8 @@ size_t gn_plan_explain_warning(const gn_plan *plan, gn_warning warning, char *te
         break;
     case GN_WARN_DEPTH:
         say(&s,
-            "from a view distance of %g on a step of %d bits of depth is larger than a pixel, and receivers are up to %g "
+            "from a view distance of %g on a step of %d bits of depth is larger than a pixel, and receivers are up to "
+            "%g "
             "away: edges of shadows may stray there; a near plane farther out than %g helps",
             plan->depth_limit, plan->target.depth_bits, plan->deepest_receiver, plan->depth_range[0]);
         break;

@@ -301,7 +301,8 @@ static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
     *any_receiver = !d->receivers_are_known;
     *any_other = 0;
     for (uint32_t i = 0; i < s->object_count; i++) {
-        d->is_in[i] = gni_may_be_seen(&d->seen, &d->boxes[i]) && gni_may_be_lit(&d->bounds, &d->boxes[i]) ? GNI_IN_LIT : 0;
+        d->is_in[i] =
+            gni_may_be_seen(&d->seen, &d->boxes[i]) && gni_may_be_lit(&d->bounds, &d->boxes[i]) ? GNI_IN_LIT : 0;
         if (!d->is_in[i])
             continue;
         *any_receiver |= (s->objects[i].flags & GN_RECEIVES) != 0;

@@ -183,9 +183,9 @@ class Gltf:
 
     # Lights and cameras.
 
-    def light(self, kind, intensity, color=(1.0, 1.0, 1.0), cone=None):
+    def light(self, kind, intensity, color=(1.0, 1.0, 1.0), cone=None, range=None):
         """A light: "point", "spot" (cone: inner and outer degrees from the axis) or
-        "directional"."""
+        "directional"; range: nothing farther is lit."""
         if "extensions" not in self.doc:
             self.doc["extensionsUsed"] = ["KHR_lights_punctual"]
             self.doc["extensions"] = {"KHR_lights_punctual": {"lights": []}}
@@ -193,6 +193,8 @@ class Gltf:
         if cone:
             item["spot"] = {"innerConeAngle": math.radians(cone[0]),
                             "outerConeAngle": math.radians(cone[1])}
+        if range:
+            item["range"] = range
         lights = self.doc["extensions"]["KHR_lights_punctual"]["lights"]
         lights.append(item)
         return len(lights) - 1

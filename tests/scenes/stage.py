@@ -42,14 +42,14 @@ class Stage(Gltf):
         """A floor: an open quad that faces upwards."""
         return self.thing(floor(half, half_z, y), self.material(color, 0.95), **place)
 
-    def lamp(self, at, intensity, color=(1.0, 1.0, 1.0), **place):
+    def lamp(self, at, intensity, color=(1.0, 1.0, 1.0), range=None, **place):
         """A point light."""
-        return self.node(at=at, light=self.light("point", intensity, color), **place)
+        return self.node(at=at, light=self.light("point", intensity, color, None, range), **place)
 
-    def spot(self, at, target, intensity, cone, color=(1.0, 1.0, 1.0), **place):
+    def spot(self, at, target, intensity, cone, color=(1.0, 1.0, 1.0), range=None, **place):
         """A spot light that points at `target`; cone: inner and outer degrees from the axis."""
         return self.node(at=at, turn=looking(at, target),
-                         light=self.light("spot", intensity, color, cone), **place)
+                         light=self.light("spot", intensity, color, cone, range), **place)
 
     def sun(self, towards, intensity=3.0, color=(1.0, 1.0, 1.0), **place):
         """A directional light; `towards` points from the scene to the light."""

@@ -166,28 +166,48 @@ static int draw_masks(const job *j, scene *loaded, int d)
     _exit(failed);
 }
 
-static int trace(job *j, const scene *loaded)
+/* Instances that are exempt in a light are made to cast, or not to: the truth knows no lists. */
+static void set_casts(scene *s, size_t light, const int *casts)
+{
+    for (size_t i = 0; i < s->lights[light].exempt_count; i++) {
+        const uint32_t instance = s->lights[light].exempt[i];
+
+        s->instances[instance].casts = casts ? casts[instance] : 0;
+    }
+}
+
+static int trace_light(job *j, scene *loaded, const int *casts, size_t light, char message[SCENE_MESSAGE])
 {
     const truth_options options = {j->width, j->height, 24, {0, 0}};
+    const size_t at = light * pixels_of(j);
+    truth *t;
+    int ok;
+
+    set_casts(loaded, light, NULL);
+    t = truth_create(loaded, &options, message);
+    ok = t && truth_light(t, light, j->lit + at, j->visible + at, j->classes + at, message);
+    truth_free(t);
+    set_casts(loaded, light, casts);
+    return ok;
+}
+
+static int trace(job *j, scene *loaded)
+{
     const size_t size = (j->lights ? j->lights : 1) * pixels_of(j);
     char message[SCENE_MESSAGE] = "";
-    truth *t = truth_create(loaded, &options, message);
+    int *casts = malloc((loaded->instance_count + 1) * sizeof *casts), ok = 1;
 
+    for (size_t i = 0; i < loaded->instance_count; i++)
+        casts[i] = loaded->instances[i].casts;
     j->lit = malloc(size);
     j->visible = malloc(size);
     j->classes = malloc(size);
-    for (size_t light = 0; light < j->lights && t; light++) {
-        const size_t at = light * pixels_of(j);
-
-        if (!truth_light(t, light, j->lit + at, j->visible + at, j->classes + at, message)) {
-            truth_free(t);
-            t = NULL;
-        }
-    }
-    if (!t)
+    for (size_t light = 0; light < j->lights && ok; light++)
+        ok = trace_light(j, loaded, casts, light, message);
+    if (!ok)
         printf("%-18s has no truth: %s\n", j->name, message);
-    truth_free(t);
-    return t != NULL;
+    free(casts);
+    return ok;
 }
 
 /* Prints a row; returns 1 when it is a failure. */
