@@ -325,22 +325,42 @@ void gni_find_bounds(gni_bounds *out, const gn_scene *scene, uint32_t light_inde
     find_scissor(out, &seen, camera, &scene->target);
 }
 
-/* From the light to the box along view space's axes around the box, which is no farther. */
+/* How far the light lies outside a box along an axis of unit length. */
+static double gap_along(const double axis[3], const double light[4], const gni_hull *box)
+{
+    const double of_light = gni_dot(axis, light);
+    double low = INFINITY, high = -INFINITY;
+
+    for (int i = 0; i < box->point_count; i++) {
+        low = fmin(low, gni_dot(axis, box->points[i]));
+        high = fmax(high, gni_dot(axis, box->points[i]));
+    }
+    return fmax(fmax(low - of_light, of_light - high), 0.0);
+}
+
+/* From the light to a box, no farther than it is: to the box around it along view space's axes, or to the plane of a
+ * face. */
 static double distance_to(const double light[4], const gni_hull *box)
 {
-    double square = 0.0;
+    double square = 0.0, farthest;
 
     for (int k = 0; k < 3; k++) {
-        double low = INFINITY, high = -INFINITY, gap;
+        const double axis[3] = {k == 0, k == 1, k == 2}, gap = gap_along(axis, light, box);
 
-        for (int i = 0; i < box->point_count; i++) {
-            low = fmin(low, box->points[i][k]);
-            high = fmax(high, box->points[i][k]);
-        }
-        gap = fmax(fmax(low - light[k], light[k] - high), 0.0);
         square += gap * gap;
     }
-    return sqrt(square);
+    farthest = sqrt(square);
+    for (int k = 0; k < 3; k++) {
+        double axis[3], length;
+
+        gni_cross(axis, box->edges[k], box->edges[(k + 1) % 3]);
+        length = sqrt(gni_dot(axis, axis));
+        for (int i = 0; i < 3 && length > 0.0; i++)
+            axis[i] /= length;
+        if (length > 0.0)
+            farthest = fmax(farthest, gap_along(axis, light, box) * (1.0 - GNI_MARGIN));
+    }
+    return farthest;
 }
 
 static int is_inside(const gni_bounds *b, const gni_hull *box, uint32_t plane_count)

@@ -84,13 +84,13 @@ size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, si
         return 0;
     l = &plan->lights[light];
     say(&s, "%s: %s", gn_plan_method_name(plan, light), l->reason);
-    say_bounds(&s, plan, l);
     if (l->skip != GN_SKIP_NOT) {
         say(&s, "; left out: %s", skips[l->skip].of_light);
         if (l->skip == GN_SKIP_UNIMPORTANT)
             say(&s, ": at most %g of a pixel's full light is missing", l->possible_error);
         return s.length;
     }
+    say_bounds(&s, plan, l);
     say(&s, "; %lu casters, %lu left out", (unsigned long)l->casters, (unsigned long)l->skipped_casters);
     if (l->batches > 1)
         say(&s, "; more layers than %d bits count: %lu batches of up to %lu layers, folded into a flag",

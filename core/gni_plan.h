@@ -67,7 +67,6 @@ typedef struct gni_draft {
     gni_choice choice;
     double projection[16], view[16];
     int receivers_are_known; /* some object is said to receive: then those are all that do */
-    int any_other;           /* some object is not */
     gni_stain stain;
 
     /* the light at hand */

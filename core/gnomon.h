@@ -362,6 +362,7 @@ typedef struct gn_plan_caster {
     uint8_t mcguire_case; /* 1 to 3; 0 when it is skipped */
     uint8_t parts;        /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: drawn */
     uint8_t fan;          /* its dark cap is a fan */
+    uint8_t is_lit; /* 0: it is out of view or of the light's bounds: the host need not draw it in the light's pass */
 } gn_plan_caster;
 
 /* What a plan cannot keep, known before the frame. */

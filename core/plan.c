@@ -220,7 +220,6 @@ static gn_result make_frame(gni_draft *d)
         gni_model_view(model_view, &s->camera, s->objects[i].model, s->objects[i].mesh->info.centre);
         gni_box_hull(&d->boxes[i], &s->objects[i].mesh->info, model_view);
         d->receivers_are_known |= (s->objects[i].flags & GN_RECEIVES) != 0;
-        d->any_other |= !(s->objects[i].flags & GN_RECEIVES);
     }
     if (d->region)
         gni_receiver_region(d->region, s);

@@ -192,7 +192,7 @@ static gn_result add_casters(gni_draft *d)
         const uint32_t before = d->plan->record_count;
         gni_case at_hand;
 
-        memset(caster, 0, sizeof *caster);
+        caster->mcguire_case = caster->parts = caster->fan = 0;
         caster->skip = (uint8_t)look_at(d, i, &at_hand);
         d->is_in[i] &= (uint8_t)~GNI_IN_CAST;
         if (d->layers)
@@ -298,15 +298,21 @@ static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
     const gn_scene *s = d->scene;
     double most = 0.0;
 
-    *any_receiver = !d->receivers_are_known;
+    *any_receiver = !d->receivers_are_known || d->lights[d->light].method != GN_METHOD_STENCIL;
     *any_other = 0;
     for (uint32_t i = 0; i < s->object_count; i++) {
-        d->is_in[i] =
-            gni_may_be_seen(&d->seen, &d->boxes[i]) && gni_may_be_lit(&d->bounds, &d->boxes[i]) ? GNI_IN_LIT : 0;
-        if (!d->is_in[i])
+        const gn_object *object = &s->objects[i];
+        gn_plan_caster *caster = &d->casters[(size_t)d->light * s->object_count + i];
+
+        memset(caster, 0, sizeof *caster);
+        caster->skip = object->flags & GN_CASTS ? GN_SKIP_NO_RECEIVER : GN_SKIP_NO_CASTER;
+        caster->is_lit = d->lights[d->light].method != GN_METHOD_STENCIL ||
+                         (gni_may_be_seen(&d->seen, &d->boxes[i]) && gni_may_be_lit(&d->bounds, &d->boxes[i]));
+        d->is_in[i] = caster->is_lit ? GNI_IN_LIT : 0;
+        if (!caster->is_lit)
             continue;
-        *any_receiver |= (s->objects[i].flags & GN_RECEIVES) != 0;
-        *any_other |= !(s->objects[i].flags & GN_RECEIVES);
+        *any_receiver |= (object->flags & GN_RECEIVES) != 0;
+        *any_other |= !(object->flags & GN_RECEIVES);
         most = fmax(most, gni_most_light(&d->bounds, &s->lights[d->light], &d->boxes[i]));
     }
     return *any_receiver && !d->receivers_are_known ? INFINITY : most;
@@ -375,9 +381,6 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
             about->possible_error = most;
             return skip_light(d, GN_SKIP_UNIMPORTANT);
         }
-    } else {
-        any_receiver = 1;
-        any_other = d->any_other;
     }
     find_depth_bounds(d, about);
     if (any_receiver) {

@@ -57,16 +57,16 @@ static int most_difference(const uint8_t *a, const uint8_t *b)
 static void check_costs(const char *name, int view, const cost *a, const cost *b)
 {
     if (b->draws > a->draws || b->vertices > a->vertices || b->rasterised > a->rasterised || b->passed > a->passed)
-        fail_msg("%s, view %d: %lu draws, %lu vertices, %lu fragments, %lu passed; z-fail %lu, %lu, %lu, %lu", name, view,
-                 (unsigned long)b->draws, (unsigned long)b->vertices, (unsigned long)b->rasterised,
+        fail_msg("%s, view %d: %lu draws, %lu vertices, %lu fragments, %lu passed; z-fail %lu, %lu, %lu, %lu", name,
+                 view, (unsigned long)b->draws, (unsigned long)b->vertices, (unsigned long)b->rasterised,
                  (unsigned long)b->passed, (unsigned long)a->draws, (unsigned long)a->vertices,
                  (unsigned long)a->rasterised, (unsigned long)a->passed);
 }
 
 static void bounded_frames_are_the_same(void **state)
 {
-    static const char *const scenes[] = {"hall", "street", "torches", "dim_lights", "colours", "many_lights", "cube_spot",
-                                         "ortho"};
+    static const char *const scenes[] = {"hall",    "street",      "torches",   "dim_lights",
+                                         "colours", "many_lights", "cube_spot", "ortho"};
     static uint8_t rgba[2][4 * WIDTH * HEIGHT];
     uint64_t skipped_lights = 0, skipped_casters = 0, scissored = 0;
     uint32_t rng = 77003u;
@@ -75,7 +75,8 @@ static void bounded_frames_are_the_same(void **state)
     (void)state;
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     for (size_t n = 0; n < sizeof scenes / sizeof scenes[0]; n++) {
-        const stage_options options = {.platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
+        const stage_options options = {
+            .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
         char path[128], message[SCENE_MESSAGE] = "";
         scene loaded;
         stage *s;
@@ -116,7 +117,8 @@ static void bounded_frames_are_the_same(void **state)
 /* Lights that are left out for their little importance take no more from a pixel than the plan says. */
 static void unimportant_lights_cost_what_is_said(void **state)
 {
-    const stage_options options = {.platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
+    const stage_options options = {
+        .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
     static uint8_t rgba[2][4 * WIDTH * HEIGHT];
     char message[SCENE_MESSAGE] = "";
     double error = 0.0;

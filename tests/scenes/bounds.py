@@ -66,3 +66,36 @@ def dim_lights(s):
     s.lamp((-1.2, 0.9, 0.2), 1e-9)
     s.lamp((1.0, 4.0, 1.5), 12.0)
     s.eye((0.3, 2.8, 4.6), (0.0, 0.2, 0.0), 46.0)
+
+
+@scene("nozpass", "large", "walls and desks are between the lamps and the eye")
+def offices(s):
+    """Six rooms in two rows, open to the eye above, each with a lamp that reaches its own walls and
+    a little of its neighbours' floor."""
+    s.ground(9.0, 7.0, color=SLATE)
+    for i in range(4):
+        x = -6.0 + 4.0 * i
+        s.thing(block((x - 0.08, 0.0, -4.0), (x + 0.08, 2.0, 4.0)), s.material(WHITE))
+    for z in (-4.0, 0.0, 4.0):
+        s.thing(block((-6.0, 0.0, z - 0.08), (6.0, 2.0, z + 0.08)), s.material(SAND))
+    for i in range(6):
+        x, z = -4.0 + 4.0 * (i % 3), -2.0 + 4.0 * (i // 3)
+        s.block_at(joined(block((-0.8, 0.7, -0.4), (0.8, 0.76, 0.4)),
+                          block((-0.75, 0.0, -0.35), (-0.65, 0.7, 0.35)),
+                          block((0.65, 0.0, -0.35), (0.75, 0.7, 0.35))), OCHRE, (x, 0.0, z), 25.0 * i)
+        s.block_at(cube(0.4), (RED, BLUE, GREEN)[i % 3], (x + 1.1, 0.2, z + 1.1), 40.0)
+        s.lamp((x - 0.5, 1.7, z + 0.3), 4.0, ((1.0, 0.9, 0.7), (0.8, 0.9, 1.0))[i % 2], range=3.2)
+    s.eye((3.0, 9.5, 9.0), (0.0, 0.0, 0.3), 48.0)
+
+
+@scene("zpass", "large", "the eye is above the lamps")
+def runway(s):
+    """Sixteen low lamps along a runway, each a small pool of light, most of them far off."""
+    s.ground(6.0, 40.0, color=SLATE)
+    for i in range(16):
+        x, z = (-1.6, 1.6)[i % 2], 4.0 - 4.2 * (i // 2)
+        s.thing(smooth(cylinder(0.12, 0.0, 0.25, 12)), s.material(WHITE), at=(x, 0.0, z))
+        s.block_at(block((-0.15, 0.0, -0.3), (0.15, 0.5, 0.3)), (RED, OCHRE, BLUE)[i % 3],
+                   (x * 0.55, 0.0, z - 0.5), 30.0 * i)
+        s.lamp((x, 0.6, z), 1.2, ((1.0, 0.9, 0.6), (0.6, 1.0, 0.7))[i % 2], range=2.2)
+    s.eye((0.4, 3.4, 9.0), (0.0, 0.0, -4.0), 42.0)

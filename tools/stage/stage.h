@@ -146,6 +146,7 @@ typedef struct stage_look {
     const float *flat;                 /* one colour instead, or NULL */
     int receivers;                     /* 1: objects that receive; 0: the rest; -1: all */
     int facing_light;                  /* only triangles whose seen side looks at this light; -1: all */
+    int lit_by;                        /* only objects that this light of the plan may light; -1: all */
     int backs;                         /* after the fronts the backs of objects that say they are drawn */
 } stage_look;
 

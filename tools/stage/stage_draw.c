@@ -241,6 +241,7 @@ void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look)
         return;
     }
     for (size_t i = 0; i < count; i++)
-        if (look->receivers < 0 || look->receivers == s->scene->instances[i].receives)
+        if ((look->receivers < 0 || look->receivers == s->scene->instances[i].receives) &&
+            (look->lit_by < 0 || s->plan->casters[(size_t)look->lit_by * count + i].is_lit))
             draw_object(s, i, pass, look);
 }

@@ -16,7 +16,7 @@ static int begin(stage *s, char message[SCENE_MESSAGE])
 /* Everything transparent, lit by all lights without shadows: it casts none, and masks are of what is behind it. */
 static void draw_blended(stage *s, uint32_t first_light, uint32_t light_count)
 {
-    const stage_look look = {1, first_light, light_count, NULL, -1, -1, 0};
+    const stage_look look = {1, first_light, light_count, NULL, -1, -1, -1, 0};
 
     stage_draw_objects(s, STAGE_PASS_BLEND, &look);
 }
@@ -29,7 +29,7 @@ int stage_draw_lit(stage *s, uint32_t first_light, char message[SCENE_MESSAGE])
     if (!begin(s, message))
         return 0;
     while (gn_gles_next(s->gles, &step)) {
-        stage_look look = {0, first_light + step.light, 1, NULL, step.receivers, -1, 0};
+        stage_look look = {0, first_light + step.light, 1, NULL, step.receivers, -1, (int)step.light, 0};
 
         if (step.draw == GN_DRAW_FINAL) {
             draw_blended(s, first_light, s->plan->light_count);
@@ -38,7 +38,7 @@ int stage_draw_lit(stage *s, uint32_t first_light, char message[SCENE_MESSAGE])
         if (step.draw == GN_DRAW_AMBIENT) {
             look.ambient = 1;
             look.light_count = 0;
-            look.receivers = -1;
+            look.receivers = look.lit_by = -1;
             look.backs = 1;
         }
         stage_draw_objects(s, STAGE_PASS_SOLID, &look);
@@ -63,6 +63,7 @@ static int draw_flat(stage *s, uint32_t first_light, const float surface[4], con
                                  is_light ? lit : surface,
                                  is_light ? step.receivers : -1,
                                  is_light ? (int)(first_light + step.light) : -1,
+                                 is_light ? (int)step.light : -1,
                                  !is_light};
 
         if (step.draw != GN_DRAW_FINAL)
@@ -92,7 +93,7 @@ void stage_draw_plain(stage *s)
     const gn_gl *gl = s->gl;
     const uint32_t count = s->plan->light_count;
     const uint32_t group = s->shader_lights;
-    stage_look look = {1, 0, count < group ? count : group, NULL, -1, -1, 0};
+    stage_look look = {1, 0, count < group ? count : group, NULL, -1, -1, -1, 0};
 
     gl->glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     gl->glClearDepthf((GLfloat)s->plan->clear_depth);
