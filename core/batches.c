@@ -256,16 +256,14 @@ void gni_add_batched(gni_draft *d, const gni_volume *volume, const int8_t *casti
     }
 }
 
-/* All casting triangles of the light's casters in cells, boxes first. */
+/* What is known cheaply; then all casting triangles of the light's casters in cells, boxes first. */
 int gni_layers_fit(gni_draft *d, uint32_t limit)
 {
     gni_layers *l = d->layers;
     gn_plan_light *about = &d->lights[d->light];
 
-    if (d->casting_count <= limit || d->cheap_layers <= limit) {
-        about->layers = (uint32_t)(d->casting_count <= limit ? d->casting_count : d->cheap_layers);
+    if (about->layers <= limit)
         return 1;
-    }
     gni_fit_cells(&l->cells, d->boxes, d->is_in, d->scene->object_count, d->bounds.light);
     memset(&l->batch, 0, sizeof l->batch);
     for (uint32_t i = 0; i < d->scene->object_count; i++)

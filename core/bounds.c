@@ -276,9 +276,7 @@ static void find_scissor(gni_bounds *b, const patch *p, const gn_camera *camera,
     }
     b->distances[0] = fmax(p->nearest, camera->znear);
     b->distances[1] = p->farthest;
-    if (camera->zfar != 0.0)
-        b->distances[1] = fmin(b->distances[1], camera->zfar);
-    if (!(b->distances[0] <= b->distances[1]))
+    if (!(b->distances[0] <= b->distances[1]) || (camera->zfar != 0.0 && b->distances[0] > camera->zfar))
         b->skip = GN_SKIP_OUT_OF_VIEW;
 }
 

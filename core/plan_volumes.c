@@ -132,7 +132,8 @@ static void note_layers(gni_draft *d, const gni_volume *v, const int8_t *casting
         cheap = silhouette / 2;
     d->casting_count += count;
     d->cheap_layers += cheap;
-    d->cheap_of[v->object] += cheap;
+    if (d->layers)
+        d->cheap_of[v->object] += cheap;
 }
 
 static void add_volume(gni_draft *d, const gni_volume *v, const int8_t *casting)
@@ -140,10 +141,7 @@ static void add_volume(gni_draft *d, const gni_volume *v, const int8_t *casting)
     if (d->is_batched) {
         gni_add_batched(d, v, casting);
     } else {
-        const uint32_t silhouette = gni_add_records(d, v, casting);
-
-        if (d->layers)
-            note_layers(d, v, casting, silhouette);
+        note_layers(d, v, casting, gni_add_records(d, v, casting));
     }
 }
 

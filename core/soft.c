@@ -38,7 +38,8 @@ gn_result gn_light_soften(gn_context *context, const gn_light *light, double rad
         const double share = (i + 0.5 + 0.5 * (jitter(2 * i) - 0.5)) / count;
         const double height = is_sun ? 0.0 : 1.0 - 2.0 * ((i * 0.6180339887498949) - floor(i * 0.6180339887498949));
         const double turn = GOLDEN * (i + 0.5 * (jitter(2 * i + 1) - 0.5));
-        const double away = radius * (is_sun ? sqrt(share) : cbrt(share)), flat = sqrt(1.0 - height * height);
+        const double away = count == 1 ? 0.0 : radius * (is_sun ? sqrt(share) : cbrt(share)),
+                     flat = sqrt(1.0 - height * height);
         const double at[3] = {away * flat * cos(turn), away * height, away * flat * sin(turn)};
 
         out[i] = *light;

@@ -292,7 +292,11 @@ static void odd_meshes_are_lawful(void **state)
     assert_int_equal(gn_silhouette(mesh, casting, edges, 2, &count), GN_E_SPACE);
     assert_int_equal(count, 3);
     assert_int_equal(edges[2].weight, 99); /* nothing is written beyond the capacity */
-    assert_int_equal(gn_mesh_get_info(mesh)->planar, 1);
+    assert_int_equal(gn_mesh_get_info(mesh)->planar, 2);
+    gn_mesh_destroy(mesh);
+    test_add_triangle(&m, 0, 2, 1);
+    mesh = create();
+    assert_int_equal(gn_mesh_get_info(mesh)->planar, 1); /* one is wound the other way */
     gn_mesh_destroy(mesh);
 }
 

@@ -148,10 +148,49 @@ static void unimportant_lights_cost_what_is_said(void **state)
     scene_free(&loaded);
 }
 
+/* Coincident surfaces: lit once by choice, the frame is that of the scene without the second ones; else light adds up. */
+static void coincident_surfaces_are_lit_once(void **state)
+{
+    const stage_options options = {
+        .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8, .exposure = 0.05};
+    static uint8_t rgba[3][4 * WIDTH * HEIGHT];
+    char message[SCENE_MESSAGE] = "";
+    scene loaded;
+    stage *s;
+
+    (void)state;
+    if (!scene_load(&loaded, "build/scenes/coplanar.gltf", NULL, message) ||
+        stage_open(&s, &loaded, &options, message) != 0)
+        fail_msg("%s", message);
+    stage_pose(s, 0, 0);
+    for (int i = 0; i < 3; i++) {
+        const stage_wish wish = {.casting = 1, .light_count = s->light_count, .blend_once = i < 2};
+        const scene_instance mat = loaded.instances[loaded.instance_count - 1];
+        const size_t all = loaded.instance_count;
+
+        if (i == 0) { /* a floor, a box, the mat */
+            loaded.instances[2] = mat;
+            loaded.instance_count = 3;
+        }
+        if (stage_plan(s, &wish, message) != 0 || !stage_draw_lit(s, 0, message))
+            fail_msg("%s", message);
+        assert_true(platform_read_back(s->platform, rgba[i]));
+        if (i == 0) {
+            loaded.instances[2] = loaded.instances[0];
+            loaded.instance_count = all;
+        }
+    }
+    assert_int_equal(most_difference(rgba[0], rgba[1]), 0);
+    assert_true(most_difference(rgba[0], rgba[2]) > 20);
+    stage_close(s);
+    scene_free(&loaded);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(bounded_frames_are_the_same),
-                                       cmocka_unit_test(unimportant_lights_cost_what_is_said)};
+                                       cmocka_unit_test(unimportant_lights_cost_what_is_said),
+                                       cmocka_unit_test(coincident_surfaces_are_lit_once)};
 
     return cmocka_run_group_tests_name("bounds", tests, NULL, NULL);
 }

@@ -99,6 +99,54 @@ static void turned_caps_are_drawn_apart(void **state)
     gn_mesh_destroy(room);
 }
 
+static size_t walk_and_count(const gn_plan *plan)
+{
+    int draws[4] = {0};
+    size_t count = 0;
+
+    fake_gl_reset();
+    assert_int_equal(gn_gles_begin(gl, plan), GN_OK);
+    walk_to_the_end(draws);
+    while (fake_gl_call(count))
+        count++;
+    return count;
+}
+
+/* A light that nothing in view is reached by makes no call at all; one with bounds a scissor, and depth bounds where they
+ * are proven and not hidden. */
+static void bounds_cost_what_they_must(void **state)
+{
+    static const gn_light lamp = {.kind = GN_LIGHT_POINT, .position = {3, 1.5, 0}, .range = 2.5};
+    size_t without, with;
+    test_frame f;
+
+    (void)state;
+    assert_int_equal(test_frame_make(&f, context, gl, target), GN_OK);
+    f.scene.light_count = 1;
+    assert_int_equal(gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan), GN_OK);
+    without = walk_and_count(f.plan);
+    assert_int_equal(fake_gl_calls("glDepthBoundsEXT"), 0);
+    assert_int_equal(fake_gl_calls("glScissor"), 1); /* on exit */
+    f.scene.light_count = 2;
+    f.lights[1] = lamp;
+    f.lights[1].position[2] = 40;
+    assert_int_equal(gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan), GN_OK);
+    with = walk_and_count(f.plan);
+    assert_int_equal(f.plan->lights[1].skip, GN_SKIP_OUT_OF_VIEW);
+    assert_int_equal(with, without);
+    f.lights[1].position[2] = 0;
+    assert_int_equal(gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan), GN_OK);
+    assert_true(walk_and_count(f.plan) > without);
+    assert_true(fake_gl_calls("glDepthBoundsEXT") > 1);
+    assert_true(fake_gl_calls("glScissor") > 1);
+    f.scene.target.hidden = 1u << GN_CAN_DEPTH_BOUNDS;
+    assert_int_equal(gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan), GN_OK);
+    (void)walk_and_count(f.plan);
+    assert_int_equal(fake_gl_calls("glDepthBoundsEXT"), 0);
+    assert_true(fake_gl_calls("glScissor") > 1);
+    test_frame_drop(&f, gl);
+}
+
 static void failures_are_said(void **state)
 {
     test_frame f;
@@ -202,6 +250,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(a_frame_draws_what_its_plan_says, set_up, tear_down),
         cmocka_unit_test_setup_teardown(turned_caps_are_drawn_apart, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(bounds_cost_what_they_must, set_up, tear_down),
         cmocka_unit_test_setup_teardown(failures_are_said, set_up, tear_down),
         cmocka_unit_test_setup_teardown(a_lost_context_is_forgotten, set_up, tear_down),
         cmocka_unit_test_setup_teardown(every_allocation_may_fail, set_up, tear_down),

@@ -99,3 +99,18 @@ def runway(s):
                    (x * 0.55, 0.0, z - 0.5), 30.0 * i)
         s.lamp((x, 0.6, z), 1.2, ((1.0, 0.9, 0.6), (0.6, 1.0, 0.7))[i % 2], range=2.2)
     s.eye((0.4, 3.4, 9.0), (0.0, 0.0, -4.0), 42.0)
+
+
+@scene("zpass", "small", "the eye is above the shadows")
+def coplanar(s):
+    """Everything twice in the same place, and a mat in the plane of the floor: whichever is drawn
+    first is seen; added up, light comes twice."""
+    mat = s.mesh(block((-0.9, -0.3, -0.7), (0.9, 0.0, 0.7)), s.material(SLATE))
+    box = s.mesh(cube(0.8), s.material(RED))
+    for _ in range(2):
+        s.ground(3.5)
+        s.node(mesh=box, at=(-0.6, 0.4, -0.5))
+    s.node(mesh=mat, at=(0.7, 0.0, 0.7))
+    s.lamp((1.2, 3.0, -0.4), 20.0)
+    s.sun((-0.4, 1.0, 0.7), 0.5)
+    s.eye((1.0, 3.0, 4.2), (0.0, 0.2, 0.0), 45.0)
