@@ -148,10 +148,18 @@ size_t gn_plan_explain_warning(const gn_plan *plan, gn_warning warning, char *te
         break;
     case GN_WARN_DEPTH:
         say(&s,
-            "from a view distance of %g on a step of %d bits of depth is larger than a pixel, and receivers are up to "
+            "from a view distance of %g on four steps of %d bits of depth are larger than a pixel, and receivers are "
+            "up to "
             "%g "
             "away: edges of shadows may stray there; a near plane farther out than %g helps",
             plan->depth_limit, plan->target.depth_bits, plan->deepest_receiver, plan->depth_range[0]);
+        break;
+    case GN_WARN_FLOAT:
+        say(&s,
+            "something in view has vertices %g from the plane of the eye: with a near plane at %g floats of a vertex "
+            "shader do "
+            "not tell them from infinity, and it may be too deep: smaller triangles or a near plane farther out help",
+            plan->farthest_vertex, plan->depth_range[0]);
         break;
     case GN_WARNING_COUNT:
         break;

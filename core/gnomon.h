@@ -373,9 +373,12 @@ typedef enum gn_warning {
     /* Volumes of orthographic cameras that were left out, because the light is so close to so many large triangles that their
      * ends need too many planes. */
     GN_WARN_ENDLESS,
-    /* From some distance on a step of depth is larger than a pixel, and something is seen there: edges of shadows stray by
-     * more than a pixel, and thin things lose theirs. */
+    /* From some distance on four steps of depth are larger than a pixel, and something that receives is seen there: edges of
+     * shadows may stray by more than a pixel, and thin things lose theirs. */
     GN_WARN_DEPTH,
+    /* Something in view has vertices so far from the plane of the eye, before it or behind, that a float of a vertex shader
+     * does not tell their depth from infinity (znear times 2^21): all of such triangles may be too deep. */
+    GN_WARN_FLOAT,
     GN_WARNING_COUNT
 } gn_warning;
 
@@ -392,8 +395,9 @@ typedef struct gn_plan {
     gn_target target;
     int blend_once;     /* as in the scene */
     double clear_depth; /* 1, or the depth of zfar */
-    double
-        depth_range[2]; /* view distances that depth 0 and 1 stand for; [1] is INFINITY for most perspective cameras */
+    /* View distances that depth 0 and 1 stand for. [0] is znear, or a little less, so that floats tell it from w (DESIGN.md,
+     * decision 3); [1] is INFINITY for most perspective cameras. */
+    double depth_range[2];
     const gn_step *steps;
     uint32_t step_count;
     const gn_record *records;
@@ -407,7 +411,8 @@ typedef struct gn_plan {
     const gn_plan_caster *casters; /* [light_count][object_count] */
     uint32_t warnings;             /* set of gn_warning: bit 1u << warning */
     uint32_t endless_casters;      /* left out with GN_WARN_ENDLESS; one is counted for each light */
-    double depth_limit;            /* the view distance from which on a step of depth is larger than a pixel */
+    double depth_limit;            /* the view distance from which on four steps of depth are larger than a pixel */
+    double farthest_vertex;        /* the greatest distance from the plane of the eye of anything that may be seen */
     double deepest_receiver;       /* the view distance of the farthest thing that receives and may be seen */
 } gn_plan;
 

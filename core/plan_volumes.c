@@ -41,8 +41,7 @@ static void plane_before(double out[4], const double plane[4], const double m[16
     memcpy(out, r, sizeof r);
 }
 
-/* Homogeneous matrices mean the same at any scale: a power of two keeps every bit, and a light far away within float. */
-static void scale_down(double m[16])
+static int greatest_exponent(const double m[16])
 {
     double most = 0.0;
     int exponent;
@@ -50,8 +49,17 @@ static void scale_down(double m[16])
     for (int i = 0; i < 16; i++)
         most = fmax(most, fabs(m[i]));
     frexp(most, &exponent);
+    return exponent;
+}
+
+/* Homogeneous matrices mean the same at any scale, and a power of two keeps every bit: far vertices get the magnitude of near
+ * ones. A light far away stays within float, and clipping a side between the two rounds alike in every unit of length. */
+static void scale_like(double m[16], const double near_matrix[16])
+{
+    const int shift = greatest_exponent(near_matrix) - greatest_exponent(m);
+
     for (int i = 0; i < 16; i++)
-        m[i] = ldexp(m[i], -exponent);
+        m[i] = ldexp(m[i], shift);
 }
 
 uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *casting)
@@ -62,7 +70,7 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *castin
     gn_plan_caster *caster = &d->casters[(size_t)d->light * d->scene->object_count + v->object];
     int mcguire_case;
     unsigned parts = choose_parts(d, v, &mcguire_case);
-    double model_view[16], extrusion[16], far_matrix[16], plane_world[4] = {0, 0, 0, 0};
+    double model_view[16], near_matrix[16], extrusion[16], far_matrix[16], plane_world[4] = {0, 0, 0, 0};
     uint32_t apex = GNI_NONE, silhouette = parts & GN_SIDES ? 0 : GNI_NONE;
 
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
@@ -74,7 +82,8 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *castin
     }
     gn_mat4_multiply(far_matrix, d->projection, extrusion);
     gn_mat4_multiply(far_matrix, far_matrix, model_view);
-    scale_down(far_matrix);
+    gn_mat4_multiply(near_matrix, d->projection, model_view);
+    scale_like(far_matrix, near_matrix);
     if (v->far_end != GN_FAR_ENDED && light[3] == 0.0)
         parts |= GNI_CONVERGING;
     else if (v->far_end == GN_FAR_INFINITE && parts & GN_DARK_CAP && d->lights[d->light].method == GN_METHOD_STENCIL &&

@@ -297,9 +297,9 @@ static void bad_scenes_are_refused(void **state)
 /* The JSON's length is told without room, it is cut and terminated with too little, and it names what it must. */
 static void json_tells_the_plan(void **state)
 {
-    static const char *const words[] = {"\"clear_depth\": 1",   "\"method\": \"zfail\"", "\"case3\": 2",
-                                        "\"light cap\"",        "\"step\": \"zero\"",    "\"draw\": \"final\"",
-                                        "\"depth_range\": [0.1"};
+    static const char *const words[] = {"\"clear_depth\": 1",      "\"method\": \"zfail\"", "\"case3\": 2",
+                                        "\"light cap\"",           "\"step\": \"zero\"",    "\"draw\": \"final\"",
+                                        "\"depth_range\": [0.0999"};
     test_frame f;
     void *memory;
     const gn_plan *plan;

@@ -27,21 +27,21 @@ def under_sheets(s):
     s.eye((1.8, 2.9, 4.2), (0.0, 0.4, 0.0), 42.0)
 
 
-@scene("zpass", "large", "the eye is above the shadows")
+@scene("zpass", "extreme", "the eye is above the shadows")
 def nest_255(s):
     """As many volumes around the floor's middle as eight bits tell from none."""
     under_sheets(s)
     s.thing(joined(*sheets(255)), s.material(OCHRE, both=True))
 
 
-@scene("zpass", "large", "the eye is above the shadows")
+@scene("zpass", "extreme", "the eye is above the shadows")
 def nest_256(s):
     """One more: all in one mesh, which is cut into chains that each keep within the bits."""
     under_sheets(s)
     s.thing(joined(*sheets(256)), s.material(OCHRE, both=True))
 
 
-@scene("zpass", "large", "the eye is above the shadows")
+@scene("zpass", "extreme", "the eye is above the shadows")
 def nest_257(s):
     """One more again, each sheet a caster of its own."""
     under_sheets(s)
@@ -61,7 +61,7 @@ def stair_light(s):
     s.eye((x + 1.9, y + 1.5, 1.6), (x, y, 0.0), 40.0)
 
 
-@scene("nozpass", "large", "the eye is above the stair, but the edges of its treads are in it")
+@scene("nozpass", "extreme", "the eye is above the stair, but the edges of its treads are in it")
 def stairs(s):
     """300 steps as one closed mesh."""
     outline = [(-1.0, 0.0)]
@@ -73,7 +73,7 @@ def stairs(s):
     stair_light(s)
 
 
-@scene("nozpass", "large", "as for the stair in one piece")
+@scene("nozpass", "extreme", "as for the stair in one piece")
 def stairs_apart(s):
     """300 steps, each a closed block and a caster."""
     material = s.material(STONE)
@@ -94,7 +94,7 @@ def upright(outline):
     return Shape(points, triangles)
 
 
-@scene("zpass", "large", "the eye is above the shadows")
+@scene("zpass", "extreme", "the eye is above the shadows")
 def helix(s):
     """A ramp of 256 turns: one sheet that hangs together and nests by itself, so that it must be
     cut through. The sun is right above, and all turns have one shadow."""

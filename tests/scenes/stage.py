@@ -8,7 +8,7 @@ from gltf import Gltf
 from shapes import floor
 from space import looking, turn_y
 
-SCENES = {}  # name: (function, "zpass" or "nozpass", "small" or "large", reason)
+SCENES = {}  # name: (function, "zpass" or "nozpass", "small", "large" or "extreme", reason)
 
 # Linear base colours.
 SAND = (0.62, 0.50, 0.34)
@@ -26,7 +26,8 @@ def scene(zpass, size, why):
 
     zpass "zpass" where no shadow volume meets the near plane's rectangle, so that counting from
           the eye (z-pass) is right; "nozpass" where one does, and z-pass must go wrong
-    size  "small" where softpipe gets through it: few triangles, few layers
+    size  "small" where softpipe gets through it: few triangles, few layers; "extreme" for those
+          that are drawn small, by z-fail and stencil only, and by every driver
     why   the reason for the first, in one line
     """
     def register(function):

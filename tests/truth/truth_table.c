@@ -1,13 +1,15 @@
 /* truth_table.c - masks of scenes against the ray-traced truth: for every driver here and every way to draw them.
  *
- *     truth_table [--size WxH] [--drivers LIST] [--pixels] SCENES_DIR [SCENE...]
+ *     truth_table [--size WxH] [--drivers LIST] [--depth BITS] [--extremes] [--pixels] SCENES_DIR [SCENE...]
  *
  * A row for each scene, driver, light and way: z-fail and z-pass as the driver can; z-fail with capabilities hidden,
  * which must be the same bits (one-sided, saturating, both; and stencil by McGuire's cases) or as right (ended; under a far plane of the camera's own
  * finite, finite-end; unless refused).
  *
  * SCENES_DIR holds the .gltf files and scenes.txt, which says of each scene whether z-pass is right there (zpass,
- * nozpass) and whether a slow rasteriser draws it (small, large). Drivers: llvmpipe and softpipe through EGL, osmesa,
+ * nozpass) and whether a slow rasteriser draws it (small, large) or it is one of the extremes, which --extremes draws
+ * instead of the others: by z-fail and stencil, on every driver. --depth asks for as many bits of depth: where the plan warns
+ * that they are too few, wrong pixels are no failure. Drivers: llvmpipe and softpipe through EGL, osmesa,
  * and zink over SwiftShader where Debian's chromium-common is installed; softpipe takes small scenes.
  *
  * A rasteriser that draws a shared edge twice, or not at all, at some pixel cannot count volumes there (Everitt 2002,
@@ -81,12 +83,14 @@ enum { IS_DRAWN = 4 }; /* in masks, beside lit 1 and visible 2 */
 
 typedef struct job {
     char name[64];
-    int zpass_is_right, is_large;
+    int zpass_is_right, is_large, extremes;
+    int depth_bits;
     int list_pixels; /* print each wrong one */
     uint32_t width, height;
     size_t lights;
     uint8_t *lit, *visible, *classes; /* [lights][pixels] of the truth */
     uint8_t *drawn;                   /* shared: [DRIVERS][WAYS][MOST_LIGHTS][pixels]: lit 1, visible 2, IS_DRAWN */
+    uint8_t *warned;                  /* shared: [DRIVERS][WAYS][MOST_LIGHTS]: of too few bits of depth */
     uint8_t *layers;                  /* shared, the same: fragments of volumes and surfaces, as one number */
 } job;
 
@@ -122,7 +126,8 @@ static double far_of(const scene *s)
 /* In a process of its own. */
 static int draw_masks(const job *j, scene *loaded, int d)
 {
-    const stage_options options = {drivers[d].platform, j->width, j->height, 0.0, 24, 8, NULL, 0.0, NULL, 0, 0.0};
+    const stage_options options = {
+        drivers[d].platform, j->width, j->height, 0.0, j->depth_bits, 8, NULL, 0.0, NULL, 0, 0.0};
     char message[SCENE_MESSAGE] = "";
     uint8_t *rgba = malloc(4 * pixels_of(j));
     stage *s;
@@ -143,6 +148,8 @@ static int draw_masks(const job *j, scene *loaded, int d)
             const size_t at = place_of(j, d, w, light);
             int status;
 
+            if (j->extremes && ways[w].method != GN_METHOD_STENCIL && w > 0)
+                continue;
             if (ways[w].finite && (loaded->camera.orthographic || loaded->camera.zfar > 0.0))
                 continue;
             s->finite_far = ways[w].finite ? far_of(loaded) : 0.0;
@@ -150,6 +157,8 @@ static int draw_masks(const job *j, scene *loaded, int d)
             status = stage_plan(s, &wish, message);
             if (status == 3 && ways[w].may_end && strstr(message, "no end of the volume")) /* refused in words */
                 continue;
+            if (status == 0)
+                j->warned[((size_t)d * WAYS + (size_t)w) * MOST_LIGHTS + light] = s->plan->warnings != 0;
             failed = status != 0 || !stage_draw_mask(s, light, message) || !platform_read_back(s->platform, rgba);
             for (size_t i = 0; !failed && i < pixels_of(j); i++)
                 j->drawn[at + i] = (uint8_t)((rgba[4 * i] > 127) | (rgba[4 * i + 1] > 127) << 1 | IS_DRAWN);
@@ -169,7 +178,7 @@ static int draw_masks(const job *j, scene *loaded, int d)
 /* The truth knows no lists: what is exempt in a light casts not while that light is traced. */
 static truth *trace_light(job *j, scene *loaded, truth *common, size_t light, char message[SCENE_MESSAGE])
 {
-    const truth_options options = {j->width, j->height, 24, {0, 0}};
+    const truth_options options = {j->width, j->height, j->depth_bits, {0, 0}};
     const scene_light *l = &loaded->lights[light];
     const size_t at = light * pixels_of(j);
     truth *t = common, *own = NULL;
@@ -213,13 +222,16 @@ static int compare(const job *j, int d, int w, size_t light)
     const uint8_t *mask = j->drawn + place_of(j, d, w, light), *layers = j->layers + place_of(j, d, w, light);
     const uint8_t *sound = j->layers + place_of(j, 0, w, light);
     const int must_be_right = ways[w].method != GN_METHOD_ZPASS || j->zpass_is_right;
-    const int is_rough = drivers[d].rough || ways[w].slivers;
+    const int is_warned = j->warned[((size_t)d * WAYS + (size_t)w) * MOST_LIGHTS + light];
+    const int is_rough = drivers[d].rough || ways[w].slivers || is_warned;
     /* before and behind what is seen there are as many fragments only where rasterising is watertight */
     const int may_differ = ways[w].method == GN_METHOD_STENCIL && (drivers[d].cracks || drivers[d].rough);
     const int differs = ways[w].same && !may_differ && memcmp(mask, j->drawn + place_of(j, d, 0, light), n) != 0;
     size_t certain = 0, depth_limited = 0, wrong = 0, cracks = 0;
     int few;
 
+    if (!(mask[0] & IS_DRAWN) && j->extremes)
+        return 0;
     if (!(mask[0] & IS_DRAWN)) {
         printf("%-18s %-9s %-10s %5lu  not drawn\n", j->name, drivers[d].name, ways[w].name, (unsigned long)light);
         return 0;
@@ -245,12 +257,13 @@ static int compare(const job *j, int d, int w, size_t light)
         wrong += cracks;
         cracks = 0;
     }
-    few = certain * 10 < n * 8;
+    few = certain * 10 < n * (j->extremes ? 7 : 8); /* a light on a vertex leaves more in doubt */
     printf("%-18s %-9s %-10s %5lu %8.2f%% %7lu %7lu %7lu%s%s%s\n", j->name, drivers[d].name, ways[w].name,
            (unsigned long)light, 100.0 * (double)certain / (double)n, (unsigned long)depth_limited,
            (unsigned long)wrong, (unsigned long)cracks,
            !must_be_right ? "  (not for this view)"
            : !wrong       ? ""
+           : is_warned    ? "  (warned)"
            : is_rough     ? "  (rough)"
                           : "  WRONG",
            few ? "  TOO FEW CERTAIN" : "", differs ? "  DIFFERS from zfail" : "");
@@ -271,8 +284,10 @@ static int run(job *j, const char *dir, const char *wanted_drivers)
         return 1;
     }
     j->lights = loaded.light_count < MOST_LIGHTS ? loaded.light_count : MOST_LIGHTS;
-    j->drawn = mmap(NULL, 2 * shared, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    j->drawn = mmap(NULL, 2 * shared + DRIVERS * WAYS * MOST_LIGHTS, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS,
+                    -1, 0);
     j->layers = j->drawn + shared;
+    j->warned = j->layers + shared;
     if (j->drawn == MAP_FAILED || !trace(j, &loaded))
         return 1;
     for (int d = 0; d < DRIVERS; d++) {
@@ -299,7 +314,7 @@ static int run(job *j, const char *dir, const char *wanted_drivers)
         failures++;
     }
     fflush(stdout);
-    munmap(j->drawn, 2 * shared);
+    munmap(j->drawn, 2 * shared + DRIVERS * WAYS * MOST_LIGHTS);
     free(j->lit);
     free(j->visible);
     free(j->classes);
@@ -319,7 +334,7 @@ int main(int count, char **arguments)
 {
     const char *wanted_drivers = "llvmpipe,osmesa,softpipe,zink";
     unsigned width = 640, height = 480;
-    int list_pixels = 0, failures = 0, scenes = 0, at = 1;
+    int list_pixels = 0, extremes = 0, depth_bits = 24, failures = 0, scenes = 0, at = 1;
     char path[1024], line[512];
     FILE *list;
 
@@ -327,6 +342,10 @@ int main(int count, char **arguments)
     for (; at + 1 < count && strncmp(arguments[at], "--", 2) == 0; at++)
         if (strcmp(arguments[at], "--pixels") == 0)
             list_pixels = 1;
+        else if (strcmp(arguments[at], "--extremes") == 0)
+            extremes = 1;
+        else if (strcmp(arguments[at], "--depth") == 0)
+            depth_bits = atoi(arguments[++at]);
         else if (strcmp(arguments[at], "--drivers") == 0)
             wanted_drivers = arguments[++at];
         else if (strcmp(arguments[at], "--size") != 0 || sscanf(arguments[++at], "%ux%u", &width, &height) != 2)
@@ -345,10 +364,12 @@ int main(int count, char **arguments)
 
         memset(&j, 0, sizeof j);
         if (sscanf(line, "%63s %15s %15s", j.name, zpass, size) != 3 ||
-            !is_named(j.name, count - at - 1, arguments + at + 1))
+            !is_named(j.name, count - at - 1, arguments + at + 1) || (strcmp(size, "extreme") == 0) != extremes)
             continue;
         j.zpass_is_right = strcmp(zpass, "zpass") == 0;
         j.is_large = strcmp(size, "large") == 0;
+        j.extremes = extremes;
+        j.depth_bits = depth_bits;
         j.list_pixels = list_pixels;
         j.width = width;
         j.height = height;
