@@ -204,13 +204,14 @@ static void add_box(gni_bounds *b, const gn_light *light, const gni_hull *box, c
 static void cone_hull(gni_hull *out, const gn_light *light, const double at[4], double reach, const double view[16])
 {
     const double wide = tan(light->cone) / cos(3.14159265358979323846 / SIDES) * (1.0 + LOOSE);
-    const double length = sqrt(gni_dot(light->towards, light->towards));
     double axis[3], across[3] = {0, 0, 0}, u[3], v[3], size;
     int least = 0;
 
-    gn_mat4_transform(axis, view, light->towards, 0.0);
+    gni_towards(axis, light);
+    gn_mat4_transform(axis, view, axis, 0.0);
+    size = sqrt(gni_dot(axis, axis));
     for (int i = 0; i < 3; i++)
-        axis[i] /= -length;
+        axis[i] /= -size;
     for (int i = 1; i < 3; i++)
         least = fabs(axis[i]) < fabs(axis[least]) ? i : least;
     across[least] = 1.0;

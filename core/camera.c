@@ -14,10 +14,10 @@ gn_result gni_check_camera(gn_context *context, const gn_camera *camera)
     const double lengths[6] = {camera->left, camera->right, camera->bottom, camera->top, camera->znear, camera->zfar};
 
     for (int i = 0; i < 16; i++)
-        if (!isfinite(camera->world[i]))
+        if (!(fabs(camera->world[i]) <= GNI_MOST))
             return gn_fail(context, GN_E_ARG, "camera: element %d of its matrix is %g", i, camera->world[i]);
     for (int i = 0; i < 6; i++)
-        if (!isfinite(lengths[i]))
+        if (!(fabs(lengths[i]) <= GNI_MOST))
             return gn_fail(context, GN_E_ARG, "camera: an edge or a distance is %g", lengths[i]);
     if (camera->left >= camera->right || camera->bottom >= camera->top)
         return gn_fail(context, GN_E_ARG, "camera: image from %g to %g by %g to %g has no area", camera->left,

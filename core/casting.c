@@ -88,6 +88,16 @@ void gn_casting(const gn_mesh *mesh, const double light[4], int8_t *casting)
     }
 }
 
+void gni_towards(double out[3], const gn_light *light)
+{
+    const double *v = light->towards;
+    int exponent;
+
+    frexp(fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2]))), &exponent);
+    for (int i = 0; i < 3; i++)
+        out[i] = ldexp(v[i], -exponent);
+}
+
 /* The light in the space of an object's mesh, less its centre: independent of the camera. 0 when the matrix is
  * singular. */
 static int light_in_object(const gn_light *light, const gn_object *object, double out[4])
@@ -100,8 +110,9 @@ static int light_in_object(const gn_light *light, const gn_object *object, doubl
     if (!gn_mat4_invert_affine(inverse, object->model))
         return 0;
     gn_mat4_transform(origin, object->model, c, 1.0);
-    for (int i = 0; i < 3; i++)
-        v[i] = is_sun ? light->towards[i] : light->position[i] - origin[i];
+    gni_towards(v, light);
+    for (int i = 0; i < 3 && !is_sun; i++)
+        v[i] = light->position[i] - origin[i];
     gn_mat4_transform(out, inverse, v, 0.0);
     out[3] = is_sun ? 0.0 : 1.0;
     return 1;
@@ -112,7 +123,9 @@ static void facing_flattened(const gn_object *object, const gn_light *light, int
 {
     const gn_mesh *mesh = object->mesh;
     const int is_sun = light->kind == GN_LIGHT_DIRECTIONAL;
+    double towards[3];
 
+    gni_towards(towards, light);
     for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
         double v[3][3], plane[4], at[4] = {0, 0, 0, is_sun ? 0.0 : 1.0};
 
@@ -128,7 +141,7 @@ static void facing_flattened(const gn_object *object, const gn_light *light, int
             const int y = (axis + 1) % 3, z = (axis + 2) % 3;
 
             plane[axis] = (v[1][y] - v[0][y]) * (v[2][z] - v[0][z]) - (v[1][z] - v[0][z]) * (v[2][y] - v[0][y]);
-            at[axis] = is_sun ? light->towards[axis] : light->position[axis] - v[0][axis];
+            at[axis] = is_sun ? towards[axis] : light->position[axis] - v[0][axis];
         }
         plane[3] = 0.0;
         facing[t] = facing_of(plane, at);

@@ -4,6 +4,7 @@
 #include "gnomon.h"
 
 #define GNI_NONE 0xffffffffu
+#define GNI_MOST 1e100 /* of places and lengths: their third powers are numbers still */
 
 struct gn_context {
     gn_port port;
@@ -116,6 +117,10 @@ void gni_model_view(double out[16], const gn_camera *camera, const double model[
 void gni_projection(double out[16], const gn_camera *camera, const double range[2]);
 /* Window depth of a view distance, 0 to 1. */
 double gni_depth_of(const gn_camera *camera, const double range[2], double distance);
+
+/* casting.c: where a directional light or a cone comes from, in the world, of a length whose powers are numbers. A power of
+ * two times what was given: no bit is lost. */
+void gni_towards(double out[3], const gn_light *light);
 
 /* extrude.c */
 /* The matrix that moves a point away from the light onto a plane: (plane . light) I - light plane^T. */

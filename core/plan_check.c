@@ -3,10 +3,10 @@
 
 #include <math.h>
 
-static int all_finite(const double *v, int count)
+static int in_range(const double *v, int count)
 {
     for (int i = 0; i < count; i++)
-        if (!isfinite(v[i]))
+        if (!(fabs(v[i]) <= GNI_MOST))
             return 0;
     return 1;
 }
@@ -20,7 +20,7 @@ static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned l
         return gn_fail(context, GN_E_ARG, "plan: light %lu has a range of %g", i, l->range);
     if (!isfinite(l->cone) || (has_cone && !(l->cone > 0.0 && l->cone < 1.5707963267948966)))
         return gn_fail(context, GN_E_ARG, "plan: light %lu has a cone of %g radians about its axis", i, l->cone);
-    if (has_cone && (!all_finite(l->towards, 3) || !(gni_dot(l->towards, l->towards) > 0.0)))
+    if (has_cone && l->towards[0] == 0.0 && l->towards[1] == 0.0 && l->towards[2] == 0.0)
         return gn_fail(context, GN_E_ARG, "plan: light %lu has a cone along %g %g %g", i, l->towards[0], l->towards[1],
                        l->towards[2]);
     for (int c = 0; c < 3; c++) {
@@ -28,7 +28,7 @@ static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned l
             return gn_fail(context, GN_E_ARG, "plan: light %lu has a color of %g", i, l->color[c]);
         if (!(l->attenuation[c] >= 0.0 && isfinite(l->attenuation[c])))
             return gn_fail(context, GN_E_ARG, "plan: light %lu has an attenuation of %g", i, l->attenuation[c]);
-        if (!isfinite(l->box_min[c]) || !isfinite(l->box_max[c]) || l->box_min[c] > l->box_max[c])
+        if (!in_range(l->box_min + c, 1) || !in_range(l->box_max + c, 1) || l->box_min[c] > l->box_max[c])
             return gn_fail(context, GN_E_ARG, "plan: light %lu has a box from %g to %g", i, l->box_min[c],
                            l->box_max[c]);
     }
@@ -44,13 +44,15 @@ static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned l
 
 static gn_result check_light(gn_context *context, const gn_light *l, unsigned long i, uint32_t object_count)
 {
-    const double *v = l->kind == GN_LIGHT_DIRECTIONAL ? l->towards : l->position;
+    const double *p = l->position, *v = l->towards;
 
     if ((unsigned)l->kind > GN_LIGHT_DIRECTIONAL)
         return gn_fail(context, GN_E_ARG, "plan: light %lu is of unknown kind %d", i, (int)l->kind);
-    if (!all_finite(v, 3))
-        return gn_fail(context, GN_E_ARG, "plan: light %lu is at %g %g %g", i, v[0], v[1], v[2]);
-    if (l->kind == GN_LIGHT_DIRECTIONAL && !(gni_dot(v, v) > 0.0))
+    if (!in_range(p, 3))
+        return gn_fail(context, GN_E_ARG, "plan: light %lu is at %g %g %g", i, p[0], p[1], p[2]);
+    if (!in_range(v, 3))
+        return gn_fail(context, GN_E_ARG, "plan: light %lu comes from %g %g %g", i, v[0], v[1], v[2]);
+    if (l->kind == GN_LIGHT_DIRECTIONAL && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)
         return gn_fail(context, GN_E_ARG, "plan: light %lu comes from no direction: %g %g %g", i, v[0], v[1], v[2]);
     return check_bounds(context, l, i, object_count);
 }
@@ -61,8 +63,9 @@ static gn_result check_object(gn_context *context, const gn_object *o, unsigned 
 
     if (!o->mesh)
         return gn_fail(context, GN_E_ARG, "plan: object %lu has no mesh", i);
-    if (!all_finite(m, 16))
-        return gn_fail(context, GN_E_ARG, "plan: object %lu: its matrix is not finite", i);
+    for (int k = 0; k < 16; k++)
+        if (!in_range(m + k, 1))
+            return gn_fail(context, GN_E_ARG, "plan: object %lu: element %d of its matrix is %g", i, k, m[k]);
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
         return gn_fail(context, GN_E_ARG, "plan: object %lu: last row of its matrix is %g %g %g %g, not 0 0 0 1", i,
                        m[3], m[7], m[11], m[15]);

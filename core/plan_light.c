@@ -19,12 +19,10 @@ void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4])
     const gn_camera *c = &d->scene->camera;
     const int is_sun = light->kind == GN_LIGHT_DIRECTIONAL;
     double v[3];
-    int exponent = 0;
 
-    if (is_sun) /* of any length; a power of two keeps every bit */
-        frexp(fmax(fabs(light->towards[0]), fmax(fabs(light->towards[1]), fabs(light->towards[2]))), &exponent);
-    for (int i = 0; i < 3; i++)
-        v[i] = is_sun ? ldexp(light->towards[i], -exponent) : light->position[i] - c->world[12 + i];
+    gni_towards(v, light);
+    for (int i = 0; i < 3 && !is_sun; i++)
+        v[i] = light->position[i] - c->world[12 + i];
     for (int i = 0; i < 3; i++)
         out[i] = c->world[4 * i] * v[0] + c->world[4 * i + 1] * v[1] + c->world[4 * i + 2] * v[2];
     out[3] = is_sun ? 0.0 : 1.0;

@@ -26,19 +26,26 @@ without_leaks() { ASAN_OPTIONS=detect_leaks=0 "$@"; }
 
 for program in "$@"; do
     case $program in
-    */gles/*) without_leaks "$program" > "$build/one.log" 2>&1 ;;
+    */gles/* | */test_scale) without_leaks "$program" > "$build/one.log" 2>&1 ;;
     *) "$program" > "$build/one.log" 2>&1 ;;
     esac
     count "${program#"$build"/}" $? "$build/one.log"
 done
 without_leaks sh tests/tools/command.sh "$build" > "$build/one.log" 2>&1
 count tests/tools/command.sh $? "$build/one.log"
-if [ -x "$build/tests/truth/truth_table" ]; then
-    without_leaks "$build/tests/truth/truth_table" ${TRUTH_ARGS:-} build/scenes > "$build/truth.txt" 2>&1
+# What is drawn, the name of the table's file, its options.
+table() {
+    what=$1 file=$build/$2.txt
+    shift 2
+    without_leaks "$build/tests/truth/truth_table" "$@" build/scenes > "$file" 2>&1
     status=$?
-    if [ $status = 0 ]; then echo "ok the masks of all scenes"; else echo "not ok the masks of all scenes"; grep -E 'WRONG|FEW|cannot|differ|no truth' "$build/truth.txt"; fi > "$build/one.log"
-    count tests/truth/truth_table $status "$build/one.log"
-fi
+    if [ $status = 0 ]; then echo "ok $what"; else echo "not ok $what"; grep -E 'WRONG|FEW|cannot|differ|DIFFER|no truth' "$file"; fi > "$build/one.log"
+    count "tests/truth/truth_table, $what" $status "$build/one.log"
+}
+table "all scenes" truth ${TRUTH_ARGS:-}
+table "the extremes" extremes --extremes --size 160x120
+table "the extremes in 16 bits of depth" extremes16 --extremes --size 160x120 --depth 16
+table "small scenes in 16 bits of depth" truth16 --size 160x120 --depth 16 --drivers llvmpipe
 rm -f "$build/one.log"
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
