@@ -71,8 +71,10 @@ test: $(TESTS) $(B)/tests/truth/truth_table $(B)/gnomon $(SCENES) headers layers
 truth: $(B)/gnomon $(B)/tests/truth/truth_table $(SCENES) ## masks of all test scenes against the ray-traced truth
 	@sh tests/truth/truth.sh $(B) $(TRUTH_ARGS)
 
-bench: $(BENCHES) ## what things cost: counts, and times as remarks
-	@for b in $(BENCHES); do $$b > /dev/null && $$b || exit 1; done
+bench: $(BENCHES) $(SCENES) ## what things cost: counts, and times as remarks; into tests/bench/stencil.csv too
+	@$(B)/tests/bench/bench_proofs > /dev/null && $(B)/tests/bench/bench_proofs
+	@$(B)/tests/bench/bench_stencil > build/stencil.csv && mv build/stencil.csv tests/bench/stencil.csv
+	@grep '^#' tests/bench/stencil.csv
 
 boards: $(B)/gnomon ## probe every driver that this machine can run, into docs/boards.md
 	@$(PYTHON) tests/boards.py $(B)/gnomon > build/boards.md && mv build/boards.md docs/boards.md

@@ -9,8 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double strange[] = {NAN,     INFINITY, -INFINITY, DBL_MAX, -DBL_MAX, DBL_MIN, 4.9e-324, -4.9e-324, 1e300,
-                                 -1e300,  1e-300,   1e40,      -1e40,   1e-40,    1e101,   0.0,      -0.0,      1e18};
+static const double strange[] = {NAN,    INFINITY, -INFINITY, DBL_MAX, -DBL_MAX, DBL_MIN, 4.9e-324, -4.9e-324, 1e300,
+                                 -1e300, 1e-300,   1e40,      -1e40,   1e-40,    1e101,   0.0,      -0.0,      1e18};
 enum { STRANGE = sizeof strange / sizeof strange[0] };
 
 static gn_context *context;
@@ -68,8 +68,8 @@ static double *number_of(test_frame *f, int index)
     index -= SINGLES;
     for (int l = 0; l < 2; l++, index -= LIGHT) {
         gn_light *light = &f->lights[l];
-        double *const arrays[] = {light->position, light->towards, light->color, light->attenuation, light->box_min,
-                                  light->box_max};
+        double *const arrays[] = {light->position,    light->towards, light->color,
+                                  light->attenuation, light->box_min, light->box_max};
 
         if (index < 18 && index >= 0)
             return arrays[index / 3] + index % 3;
@@ -141,7 +141,8 @@ static void scenes_take_any_number(void **state)
 
 static void meshes_take_any_number(void **state)
 {
-    static const float numbers[] = {NAN, INFINITY, -INFINITY, FLT_MAX, -FLT_MAX, FLT_MIN, 1.4e-45f, -1.4e-45f, 1e30f, 0, -0.0f};
+    static const float numbers[] = {NAN,      INFINITY,  -INFINITY, FLT_MAX, -FLT_MAX, FLT_MIN,
+                                    1.4e-45f, -1.4e-45f, 1e30f,     0,       -0.0f};
     static test_mesh m;
     static const float low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
 
@@ -285,8 +286,9 @@ static void nothing_is_lawful(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(scenes_take_any_number), cmocka_unit_test(meshes_take_any_number),
-                                       cmocka_unit_test(the_rest_takes_any_number), cmocka_unit_test(nothing_is_lawful)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(scenes_take_any_number), cmocka_unit_test(meshes_take_any_number),
+        cmocka_unit_test(the_rest_takes_any_number), cmocka_unit_test(nothing_is_lawful)};
 
     return cmocka_run_group_tests_name("numbers", tests, set_up, tear_down);
 }
