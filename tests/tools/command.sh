@@ -117,6 +117,36 @@ ok "and is reported" has "$tmp/o.json" 'zfail/one-sided'
 ok "--explain says why" sh -c "$gnomon render $scenes/cube_point.gltf --size 16x16 --explain --hide two-sided-stencil | grep -q '^light 0: stencil/one-sided: exact for any view; one side at a time, since two-sided-stencil is hidden; '"
 
 ok "and each caster's case" sh -c "$gnomon render $scenes/near_cuts_volume.gltf --size 64x48 --explain > $tmp/cases.txt && grep -q 'case 1, by z-pass.*; sides' $tmp/cases.txt && grep -q 'case 3, by z-fail.*light cap' $tmp/cases.txt"
+says() { # scene, words that --explain must say, further options
+    what=$1 words=$2
+    shift 2
+    ok "--explain of $what $*: $words" sh -c "$gnomon render $scenes/$what.gltf --size 64x48 --explain $* | grep -q '$words'"
+}
+says hall 'scissor .* of 64x48 pixels; 7 casters, 24 left out'
+says hall 'left out: it lies beyond the light.s reach'
+says torches 'left out: it is exempt'
+says dim_lights 'light 4: .*left out: it matters less than was asked for: at most 0.00' --importance 0.1
+says stairs 'more layers than 8 bits count: .* batches of up to 12[0-7] layers, folded into a flag'
+says near_cuts_volume 'case 1, by z-pass.*; sides'
+says cube_point 'light 0: .*of coincident surfaces only the first is lit' --blend-once
+ok "the plan has it all" sh -c "$gnomon render $scenes/torches.gltf --size 64x48 --plan $tmp/t.json && python3 -c '
+import json
+p = json.load(open(\"$tmp/t.json\"))
+l = p[\"lights\"][0]
+assert l[\"reach\"] < 3.1 and l[\"scissor\"][2] <= 64 and l[\"layers\"] > 0 and l[\"stencil\"][\"bits\"] == 8
+assert [o[\"skip\"] for o in l[\"objects\"]].count(\"exempt\") == 1 and p[\"warnings\"] == []'"
+ok "a warning before the frame" sh -c "$gnomon render $scenes/near_tiny_wide.gltf --size 64x48 -o $tmp/w.png 2>&1 | grep -q 'four steps of 24 bits of depth are larger than a pixel'"
+ok "probe says how many layers" sh -c "$gnomon probe --platform egl | grep -q 'stencil  *possible; 255 layers at once, more in batches'"
+ok "soft lights" "$gnomon" render $scenes/cube_point.gltf -o "$tmp/soft.png" --size 160x120 --soft 16:0.3 --report "$tmp/s.json"
+ok "are many" sh -c "[ \$(grep -c '\"method\"' $tmp/s.json) = 16 ]"
+ok "and change the picture" sh -c "! cmp -s $tmp/soft.png $tmp/a.png"
+ok "one soft light is a hard one" "$gnomon" render $scenes/cube_point.gltf -o "$tmp/hard.png" --size 160x120 --soft 1:0.3
+ok "to the last byte" cmp "$tmp/hard.png" "$tmp/a.png"
+refuses 2 "(16)" render $scenes/cube_point.gltf -o "$tmp/x.png" --soft 16
+refuses 2 "(0:1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --soft 0:1
+refuses 2 "(4:-1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --soft 4:-1
+refuses 2 "a mask is of one light" render $scenes/cube_point.gltf --mask-dir "$tmp/x" --soft 4:1
+refuses 2 "(-1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --importance -1
 printf '{"asset": {"version": "2.0"}}' > "$tmp/empty.gltf"
 ok "an empty scene is drawn" "$gnomon" render "$tmp/empty.gltf" -o "$tmp/empty.png" --size 16x16
 ok "and says that it placed a camera and a light" sh -c "[ \$($gnomon render $tmp/empty.gltf -o $tmp/empty.png --size 16x16 2>&1 | grep -c placed) = 2 ]"

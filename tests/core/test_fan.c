@@ -1,0 +1,165 @@
+/* test_fan.c - dark caps as fans: where there is one the volume is closed, and the fan covers a direction exactly as often as the
+ * casting triangles do. */
+#include "gn_matrix.h"
+#include "gn_test.h"
+#include "gni.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static gn_context *context;
+static uint32_t rng = 2003;
+
+static void add_ball(test_mesh *m, uint32_t around, uint32_t rings)
+{
+    const uint32_t top = test_add_vertex(m, 0, 1, 0);
+
+    for (uint32_t j = 1; j < rings; j++)
+        for (uint32_t i = 0; i < around; i++) {
+            const double u = 6.283185307179586 * i / around, v = 3.141592653589793 * j / rings;
+
+            test_add_vertex(m, (float)(sin(v) * cos(u)), (float)cos(v), (float)(sin(v) * sin(u)));
+        }
+    test_add_vertex(m, 0, -1, 0);
+    for (uint32_t i = 0; i < around; i++) {
+        const uint32_t n = (i + 1) % around, last = 1 + (rings - 2) * around;
+
+        test_add_triangle(m, top, 1 + n, 1 + i);
+        test_add_triangle(m, last + i, last + n, last + around);
+        for (uint32_t j = 0; j + 2 < rings; j++) {
+            const uint32_t row = 1 + j * around;
+
+            test_add_triangle(m, row + i, row + n, row + around + n);
+            test_add_triangle(m, row + i, row + around + n, row + around + i);
+        }
+    }
+}
+
+/* A box, a torus, a ball, a ball with dents. */
+static void make_mesh(test_mesh *m, int kind)
+{
+    static const float low[3] = {-1, -0.6f, -0.8f}, high[3] = {1, 0.6f, 0.8f};
+
+    m->vertex_count = m->triangle_count = 0;
+    if (kind == 0)
+        test_add_box(m, low, high, 0);
+    else if (kind == 1)
+        test_add_torus(m, 1.0f, 0.4f, 14, 8);
+    else
+        add_ball(m, 16, 9);
+    for (size_t v = 0; v < m->vertex_count && kind == 3; v++) {
+        const float size = (float)test_uniform(&rng, 0.85, 1.05);
+
+        for (int i = 0; i < 3; i++)
+            m->positions[3 * v + (size_t)i] *= size;
+    }
+}
+
+/* -1, 0, 1: how a triangle of near vertices is seen along a direction from the light; 0 where it is not hit. */
+static int covers(const gn_mesh *mesh, const uint32_t t[3], const double light[4], const double along[3])
+{
+    double side[3], p[3][3], n[3];
+
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            p[k][i] = (double)mesh->positions[3 * (size_t)t[k] + (size_t)i] - light[i];
+    for (int k = 0; k < 3; k++) {
+        gni_cross(n, p[k], p[(k + 1) % 3]);
+        side[k] = gni_dot(n, along);
+    }
+    if (side[0] > 0 && side[1] > 0 && side[2] > 0)
+        return 1;
+    return side[0] < 0 && side[1] < 0 && side[2] < 0 ? -1 : 0;
+}
+
+static void fans_cover_what_caps_do(void **state)
+{
+    static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    static test_mesh m;
+    static uint16_t indices[2][24 * 400];
+    uint32_t found = 0, none = 0;
+
+    (void)state;
+    for (int trial = 0; trial < 400; trial++) {
+        gn_mesh_desc desc;
+        gn_mesh *mesh;
+        gni_hull box;
+        gni_stream fan, cap;
+        int8_t *casting;
+        uint32_t apex;
+        double light[4] = {0, 0, 0, 1}, length;
+
+        make_mesh(&m, trial % 4);
+        desc = test_desc(&m);
+        assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_OK);
+        for (int i = 0; i < 3; i++)
+            light[i] = test_uniform(&rng, -1, 1);
+        length = sqrt(gni_dot(light, light));
+        for (int i = 0; i < 3; i++)
+            light[i] *= test_uniform(&rng, 2.5, 9) / length;
+        casting = malloc(mesh->info.triangle_count);
+        gn_casting(mesh, light, casting);
+        gni_box_hull(&box, &mesh->info, identity);
+        assert_int_equal(gni_light_is_outside(&box, light), 1);
+        apex = gni_find_apex(mesh, casting, identity, light, &box);
+        if (apex == GNI_NONE) {
+            none++;
+        } else {
+            found++;
+            gni_volume_indices(mesh, 0, casting, GN_SIDES | GN_DARK_CAP, GNI_NONE, indices[0], &cap);
+            gni_volume_indices(mesh, 0, casting, GN_SIDES | GN_DARK_CAP | GNI_FAN, apex, indices[1], &fan);
+            assert_int_equal(fan.sides, cap.sides);
+            assert_true(fan.dark_cap < cap.dark_cap);
+            for (int n = 0; n < 60; n++) {
+                double along[3];
+                int sums[2] = {0, 0}, absolute = 0;
+
+                for (int i = 0; i < 3; i++)
+                    along[i] = test_uniform(&rng, -1, 1) - light[i];
+                for (int f = 0; f < 2; f++) {
+                    const gni_stream *s = f ? &fan : &cap;
+
+                    for (uint32_t i = 0; i < s->dark_cap; i += 3) {
+                        const uint16_t *at = indices[f] + s->sides + i;
+                        uint32_t t[3];
+
+                        for (int k = 0; k < 3; k++) {
+                            assert_int_equal(at[k] % 2, 1); /* far vertices alone */
+                            t[k] = mesh->chunk_vertices[at[k] / 2];
+                        }
+                        sums[f] += covers(mesh, t, light, along);
+                        absolute += f ? abs(covers(mesh, t, light, along)) : 0;
+                    }
+                }
+                if (sums[0] != sums[1] || absolute != abs(sums[1]))
+                    fail_msg("trial %d: the fan covers a direction %d times (%d in all), the cap %d times", trial, sums[1],
+                             absolute, sums[0]);
+            }
+        }
+        free(casting);
+        gn_mesh_destroy(mesh);
+    }
+    print_message("           %lu have a fan, %lu have none\n", (unsigned long)found, (unsigned long)none);
+    assert_true(found > 100 && none > 50);
+}
+
+static int set_up(void **state)
+{
+    (void)state;
+    return gn_context_create(NULL, &context) != GN_OK;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    gn_context_destroy(context);
+    return 0;
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(fans_cover_what_caps_do)};
+
+    return cmocka_run_group_tests_name("fan", tests, set_up, tear_down);
+}
