@@ -7,8 +7,6 @@
  * culls and by rounded ones when it draws, and lose them both times. llvmpipe does. */
 #include "gni.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #define MIDDLE 128 /* of 8 bits */
@@ -25,22 +23,6 @@ int gni_must_end(const gn_scene *s)
     return s->camera.orthographic || s->camera.finite_far || !gn_target_can(&s->target, GN_CAN_W0);
 }
 
-static void say(gni_choice *choice, const char *format, ...)
-#ifdef __GNUC__
-    __attribute__((format(printf, 2, 3)))
-#endif
-    ;
-
-static void say(gni_choice *choice, const char *format, ...)
-{
-    const size_t length = strlen(choice->reason);
-    va_list args;
-
-    va_start(args, format);
-    vsnprintf(choice->reason + length, sizeof choice->reason - length, format, args);
-    va_end(args);
-}
-
 static void choose_layout(const gn_scene *s, gni_choice *choice)
 {
     const gn_target *t = &s->target;
@@ -49,21 +31,21 @@ static void choose_layout(const gn_scene *s, gni_choice *choice)
     layout->two_sided = !s->one_sided && gn_target_can(t, GN_CAN_TWO_SIDED_STENCIL);
     layout->discard = !layout->two_sided && gn_target_can(t, GN_CAN_FRONT_FACING);
     if (s->one_sided)
-        say(choice, "; one side at a time, as asked for");
+        gni_put(&choice->text, "; one side at a time, as asked for");
     else if (!layout->two_sided)
-        say(choice, "; one side at a time, since %s %s", gn_capability_name(GN_CAN_TWO_SIDED_STENCIL),
-            gni_why_not(t, GN_CAN_TWO_SIDED_STENCIL));
+        gni_put(&choice->text, "; one side at a time, since %s %s", gn_capability_name(GN_CAN_TWO_SIDED_STENCIL),
+                gni_why_not(t, GN_CAN_TWO_SIDED_STENCIL));
     if (!layout->two_sided && !layout->discard)
-        say(choice, "; culled, which may lose slivers, since %s %s", gn_capability_name(GN_CAN_FRONT_FACING),
-            gni_why_not(t, GN_CAN_FRONT_FACING));
+        gni_put(&choice->text, "; culled, which may lose slivers, since %s %s", gn_capability_name(GN_CAN_FRONT_FACING),
+                gni_why_not(t, GN_CAN_FRONT_FACING));
     layout->wrap = gn_target_can(t, GN_CAN_STENCIL_WRAP);
     layout->reference = layout->wrap ? 0 : MIDDLE;
     layout->low = layout->wrap ? 0 : -MIDDLE;
     layout->high = layout->wrap ? 255 : 255 - MIDDLE;
     layout->bits = 8;
     if (!layout->wrap)
-        say(choice, "; counts from %d to %d about %d, since %s %s", layout->low, layout->high, layout->reference,
-            gn_capability_name(GN_CAN_STENCIL_WRAP), gni_why_not(t, GN_CAN_STENCIL_WRAP));
+        gni_put(&choice->text, "; counts from %d to %d about %d, since %s %s", layout->low, layout->high,
+                layout->reference, gn_capability_name(GN_CAN_STENCIL_WRAP), gni_why_not(t, GN_CAN_STENCIL_WRAP));
 }
 
 void gni_split_layout(gn_stencil_layout *layout)
@@ -80,10 +62,10 @@ static void choose_far(const gn_scene *s, gni_choice *choice)
     if (s->camera.orthographic || !gni_must_end(s))
         return;
     if (s->camera.finite_far)
-        say(choice, "; volumes end behind what is seen, since the camera's far plane is finite");
+        gni_put(&choice->text, "; volumes end behind what is seen, since the camera's far plane is finite");
     else
-        say(choice, "; volumes end behind what is seen, since %s %s", gn_capability_name(GN_CAN_W0),
-            gni_why_not(&s->target, GN_CAN_W0));
+        gni_put(&choice->text, "; volumes end behind what is seen, since %s %s", gn_capability_name(GN_CAN_W0),
+                gni_why_not(&s->target, GN_CAN_W0));
 }
 
 gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
@@ -92,10 +74,11 @@ gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
     const gn_method_info *info;
 
     memset(choice, 0, sizeof *choice);
+    gni_start_text(&choice->text, choice->reason, sizeof choice->reason);
     if ((unsigned)s->method >= GN_METHOD_COUNT)
         return gn_fail(context, GN_E_ARG, "plan: no method has number %d", (int)s->method);
     choice->method = s->method == GN_METHOD_AUTO ? GN_METHOD_STENCIL : s->method;
-    say(choice, s->method == GN_METHOD_AUTO ? "exact for any view" : "asked for by name");
+    gni_put(&choice->text, s->method == GN_METHOD_AUTO ? "exact for any view" : "asked for by name");
     info = gn_method_describe(choice->method);
     for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
         if (info->needs >> c & 1 && !gn_target_can(t, (gn_capability)c))

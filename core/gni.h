@@ -128,11 +128,25 @@ void gni_extrusion(double out[16], const double light[4], const double plane[4])
 /* The matrix that moves a point away from the light by a factor of its distance, or, directional, by a distance. */
 void gni_extrusion_by(double out[16], const double light[4], double reach);
 
+/* text.c: writes like snprintf, piece by piece. */
+typedef struct gni_text {
+    char *text;
+    size_t capacity, length; /* length: of the whole, whether there is room or not */
+} gni_text;
+
+void gni_start_text(gni_text *t, char *text, size_t capacity); /* text may be NULL */
+void gni_put(gni_text *t, const char *format, ...)
+#ifdef __GNUC__
+    __attribute__((format(printf, 2, 3)))
+#endif
+    ;
+
 /* choose.c */
 typedef struct gni_choice {
     gn_method method;
     gn_stencil_layout stencil;
     char reason[256]; /* as in gn_plan_light */
+    gni_text text;    /* into it */
 } gni_choice;
 
 /* Counts of one bit less, and a flag above them. */

@@ -8,7 +8,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static gn_context *context;
 static uint32_t rng = 2003;
 
 static void add_ball(test_mesh *m, uint32_t around, uint32_t rings)
@@ -92,7 +91,7 @@ static void fans_cover_what_caps_do(void **state)
 
         make_mesh(&m, trial % 4);
         desc = test_desc(&m);
-        assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_OK);
+        assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_OK);
         for (int i = 0; i < 3; i++)
             light[i] = test_uniform(&rng, -1, 1);
         length = sqrt(gni_dot(light, light));
@@ -133,8 +132,8 @@ static void fans_cover_what_caps_do(void **state)
                     }
                 }
                 if (sums[0] != sums[1] || absolute != abs(sums[1]))
-                    fail_msg("trial %d: the fan covers a direction %d times (%d in all), the cap %d times", trial, sums[1],
-                             absolute, sums[0]);
+                    fail_msg("trial %d: the fan covers a direction %d times (%d in all), the cap %d times", trial,
+                             sums[1], absolute, sums[0]);
             }
         }
         free(casting);
@@ -144,22 +143,9 @@ static void fans_cover_what_caps_do(void **state)
     assert_true(found > 100 && none > 50);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    return gn_context_create(NULL, &context) != GN_OK;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    gn_context_destroy(context);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(fans_cover_what_caps_do)};
 
-    return cmocka_run_group_tests_name("fan", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("fan", tests, test_open_context, test_close_context);
 }

@@ -9,7 +9,6 @@
 
 enum { SAMPLES = 1500 };
 
-static gn_context *context;
 static uint32_t rng = 4711;
 
 static gn_mesh *make_mesh(const test_mesh *m)
@@ -17,7 +16,7 @@ static gn_mesh *make_mesh(const test_mesh *m)
     const gn_mesh_desc desc = test_desc(m);
     gn_mesh *mesh = NULL;
 
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_OK);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_OK);
     return mesh;
 }
 
@@ -194,7 +193,7 @@ static uint32_t check(const gn_mesh *mesh, const gn_light *light, uint32_t hidde
     scene.method = GN_METHOD_ZFAIL;
     size = gn_plan_bound(&scene);
     memory = malloc(size);
-    assert_int_equal(gn_plan_make(context, &scene, memory, size, &plan), GN_OK);
+    assert_int_equal(gn_plan_make(test_context, &scene, memory, size, &plan), GN_OK);
     gn_object_casting(&object, light, casting);
     for (uint32_t r = 0; r < plan->record_count; r++)
         check_closed(plan, &plan->records[r], light->kind == GN_LIGHT_DIRECTIONAL);
@@ -296,23 +295,10 @@ static void what_does_not_nest_is_in_one_batch(void **state)
     gn_mesh_destroy(mesh);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    return gn_context_create(NULL, &context) != GN_OK;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    gn_context_destroy(context);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_batch_holds_more_than_it_says),
                                        cmocka_unit_test(what_does_not_nest_is_in_one_batch)};
 
-    return cmocka_run_group_tests_name("layers", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("layers", tests, test_open_context, test_close_context);
 }

@@ -7,7 +7,6 @@
 #include <string.h>
 
 static test_mesh m;
-static gn_context *context;
 
 static void clear(void)
 {
@@ -19,7 +18,7 @@ static gn_mesh *create(void)
     const gn_mesh_desc desc = test_desc(&m);
     gn_mesh *mesh = NULL;
 
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_OK);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_OK);
     return mesh;
 }
 
@@ -194,7 +193,7 @@ static void chunks_reach_everything(void **state)
                 desc.triangle_count += 2;
             }
         }
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_OK);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_OK);
     info = gn_mesh_get_info(mesh);
     assert_true(info->chunk_count >= 3);
     for (uint32_t c = 0; c < info->chunk_count; c++) {
@@ -232,27 +231,27 @@ static void bad_input_is_refused(void **state)
     test_add_box(&m, low, high, 0);
     desc = test_desc(&m);
     m.indices[20] = 8;
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_E_MESH);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_E_MESH);
     assert_null(mesh);
-    assert_non_null(strstr(gn_message(context), "triangle 6 names vertex 8 of 8"));
+    assert_non_null(strstr(gn_message(test_context), "triangle 6 names vertex 8 of 8"));
     m.indices[20] = 7;
     m.positions[16] = NAN;
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_E_MESH);
-    assert_non_null(strstr(gn_message(context), "vertex 5"));
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_E_MESH);
+    assert_non_null(strstr(gn_message(test_context), "vertex 5"));
     m.positions[16] = -INFINITY;
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_E_MESH);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_E_MESH);
     m.positions[16] = 0;
     desc.stride = 10;
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_E_ARG);
-    assert_non_null(strstr(gn_message(context), "10"));
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_E_ARG);
+    assert_non_null(strstr(gn_message(test_context), "10"));
     desc.stride = 0;
     desc.triangle_count = (size_t)GN_MAX_TRIANGLES + 1;
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_E_ARG);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_E_ARG);
     desc = test_desc(&m);
     desc.positions = NULL;
-    assert_int_equal(gn_mesh_create(context, &desc, &mesh), GN_E_ARG);
-    assert_int_equal(gn_mesh_create(context, NULL, &mesh), GN_E_ARG);
-    assert_int_equal(gn_mesh_create(context, &desc, NULL), GN_E_ARG);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_E_ARG);
+    assert_int_equal(gn_mesh_create(test_context, NULL, &mesh), GN_E_ARG);
+    assert_int_equal(gn_mesh_create(test_context, &desc, NULL), GN_E_ARG);
     assert_int_equal(gn_mesh_create(NULL, &desc, &mesh), GN_E_ARG);
     gn_mesh_destroy(NULL);
 }
@@ -329,19 +328,6 @@ static void every_allocation_may_fail(void **state)
     assert_true(fail_at > 15);
 }
 
-static int set_up(void **state)
-{
-    (void)state;
-    return gn_context_create(NULL, &context) != GN_OK;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    gn_context_destroy(context);
-    return 0;
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -351,5 +337,5 @@ int main(void)
         cmocka_unit_test(odd_meshes_are_lawful),          cmocka_unit_test(every_allocation_may_fail),
     };
 
-    return cmocka_run_group_tests_name("mesh", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("mesh", tests, test_open_context, test_close_context);
 }

@@ -8,14 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static gn_context *context;
-
 /* The frame of the walk's tests, with an infinite far plane; plans are made in memory of their own here. */
 static void make_fixture(test_frame *f)
 {
     const gn_target target = TEST_TARGET(64, 48);
 
-    assert_int_equal(test_frame_make(f, context, NULL, target), GN_OK);
+    assert_int_equal(test_frame_make(f, test_context, NULL, target), GN_OK);
     f->scene.camera.zfar = 0.0;
     f->scene.method = GN_METHOD_ZFAIL; /* the one whose parts do not depend on the view */
 }
@@ -32,7 +30,7 @@ static const gn_plan *make_plan(const test_frame *f, void **memory)
 
     *memory = calloc(1, size);
     assert_non_null(*memory);
-    assert_int_equal(gn_plan_make(context, &f->scene, *memory, size, &plan), GN_OK);
+    assert_int_equal(gn_plan_make(test_context, &f->scene, *memory, size, &plan), GN_OK);
     return plan;
 }
 
@@ -108,16 +106,16 @@ static void planning_is_pure_and_bounded(void **state)
 
         memset(a, 0xa5, size + 64);
         memset(b, 0xa5, size + 64);
-        assert_int_equal(gn_plan_make(context, &f.scene, a, size, &pa), GN_OK);
-        assert_int_equal(gn_plan_make(context, &f.scene, b, size, &pb), GN_OK);
+        assert_int_equal(gn_plan_make(test_context, &f.scene, a, size, &pa), GN_OK);
+        assert_int_equal(gn_plan_make(test_context, &f.scene, b, size, &pb), GN_OK);
         for (int i = 0; i < 64; i++)
             assert_int_equal(a[size + (size_t)i], 0xa5);
         assert_int_equal(pa->index_count, pb->index_count);
         assert_memory_equal(pa->indices, pb->indices, pa->index_count * sizeof(uint16_t));
         assert_memory_equal(pa->records, pb->records, pa->record_count * sizeof(gn_record));
         assert_memory_equal(pa->steps, pb->steps, pa->step_count * sizeof(gn_step));
-        assert_int_equal(gn_plan_make(context, &f.scene, a, size - 8, &pa), GN_E_SPACE);
-        assert_non_null(strstr(gn_message(context), "needed"));
+        assert_int_equal(gn_plan_make(test_context, &f.scene, a, size - 8, &pa), GN_E_SPACE);
+        assert_non_null(strstr(gn_message(test_context), "needed"));
         free(a);
         free(b);
         f.scene.camera.orthographic = 1;
@@ -255,8 +253,8 @@ static void bad_scenes_are_refused(void **state)
     make_fixture(&f);
 #define REFUSED(result, words)                                                                                         \
     do {                                                                                                               \
-        assert_int_equal(gn_plan_make(context, &f.scene, memory, 1 << 20, &plan), result);                             \
-        assert_non_null(strstr(gn_message(context), words));                                                           \
+        assert_int_equal(gn_plan_make(test_context, &f.scene, memory, 1 << 20, &plan), result);                        \
+        assert_non_null(strstr(gn_message(test_context), words));                                                      \
         assert_null(plan);                                                                                             \
         drop_fixture(&f);                                                                                              \
         make_fixture(&f);                                                                                              \
@@ -286,7 +284,7 @@ static void bad_scenes_are_refused(void **state)
     f.scene.method = GN_METHOD_COUNT;
     REFUSED(GN_E_ARG, "no method");
     f.objects[0].model[5] = 0; /* flattened onto the floor: it casts all the same, by the lit one of its two sheets */
-    assert_int_equal(gn_plan_make(context, &f.scene, memory, 1 << 20, &plan), GN_OK);
+    assert_int_equal(gn_plan_make(test_context, &f.scene, memory, 1 << 20, &plan), GN_OK);
     assert_int_equal(plan->record_count, 4);
     assert_int_equal(plan->records[0].light_cap_count, 6);
     assert_int_equal(plan->records[0].turned_cap_count, 0);
@@ -330,34 +328,21 @@ static void the_template_port_works(void **state)
     static double block[40000];
     gn_port_block b = {(unsigned char *)block, sizeof block, 0, 0, 0};
     const gn_port port = gn_port_template(&b);
-    gn_context *kept = context;
+    gn_context *kept = test_context;
     test_frame f;
     void *memory;
 
     (void)state;
-    assert_int_equal(gn_context_create(&port, &context), GN_OK);
+    assert_int_equal(gn_context_create(&port, &test_context), GN_OK);
     make_fixture(&f);
     assert_true(b.used > 0 && b.live > 10);
     (void)make_plan(&f, &memory);
     free(memory);
     drop_fixture(&f);
-    gn_context_destroy(context);
+    gn_context_destroy(test_context);
     assert_int_equal(b.live, 0);
     assert_int_equal(b.used, 0);
-    context = kept;
-}
-
-static int set_up(void **state)
-{
-    (void)state;
-    return gn_context_create(NULL, &context) != GN_OK;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    gn_context_destroy(context);
-    return 0;
+    test_context = kept;
 }
 
 int main(void)
@@ -369,5 +354,5 @@ int main(void)
         cmocka_unit_test(json_tells_the_plan),      cmocka_unit_test(the_template_port_works),
     };
 
-    return cmocka_run_group_tests_name("plan", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("plan", tests, test_open_context, test_close_context);
 }

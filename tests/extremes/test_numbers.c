@@ -13,21 +13,6 @@ static const double strange[] = {NAN,    INFINITY, -INFINITY, DBL_MAX, -DBL_MAX,
                                  -1e300, 1e-300,   1e40,      -1e40,   1e-40,    1e101,   0.0,      -0.0,      1e18};
 enum { STRANGE = sizeof strange / sizeof strange[0] };
 
-static gn_context *context;
-
-static int set_up(void **state)
-{
-    (void)state;
-    return gn_context_create(NULL, &context) != GN_OK;
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    gn_context_destroy(context);
-    return 0;
-}
-
 static void check_plan(const gn_plan *plan)
 {
     const size_t length = gn_plan_json(plan, NULL, 0);
@@ -93,7 +78,7 @@ static void scenes_take_any_number(void **state)
     for (int kind = 0; kind < 6; kind++) {
         const gn_target target = TEST_TARGET(64, 48);
 
-        assert_int_equal(test_frame_make(&f, context, NULL, target), GN_OK);
+        assert_int_equal(test_frame_make(&f, test_context, NULL, target), GN_OK);
         f.lights[0].kind = kind % 2 ? GN_LIGHT_SPOT : GN_LIGHT_POINT;
         f.lights[0].towards[1] = 1;
         f.lights[0].cone = 0.5;
@@ -117,14 +102,15 @@ static void scenes_take_any_number(void **state)
 
                 *number = strange[v];
                 memory = malloc(size);
-                result = gn_plan_make(context, &f.scene, memory, size, &f.plan);
+                result = gn_plan_make(test_context, &f.scene, memory, size, &f.plan);
                 if (result == GN_OK) {
                     check_plan(f.plan);
                     planned++;
                 } else {
                     if (result != GN_E_ARG && result != GN_E_DEVICE)
-                        fail_msg("number %d is %g: result %d, %s", n, strange[v], (int)result, gn_message(context));
-                    assert_true(strlen(gn_message(context)) > 10);
+                        fail_msg("number %d is %g: result %d, %s", n, strange[v], (int)result,
+                                 gn_message(test_context));
+                    assert_true(strlen(gn_message(test_context)) > 10);
                     refused++;
                 }
                 if (!isfinite(strange[v]) && n != 16 + 6 + 0 && result == GN_OK)
@@ -158,11 +144,11 @@ static void meshes_take_any_number(void **state)
             test_add_box(&m, low, high, 0);
             m.positions[i] = numbers[v];
             desc = test_desc(&m);
-            result = gn_mesh_create(context, &desc, &mesh);
+            result = gn_mesh_create(test_context, &desc, &mesh);
             if (!isfinite(numbers[v])) {
                 assert_int_equal(result, GN_E_MESH);
                 assert_null(mesh);
-                assert_non_null(strstr(gn_message(context), "vertex"));
+                assert_non_null(strstr(gn_message(test_context), "vertex"));
                 continue;
             }
             assert_int_equal(result, GN_OK);
@@ -197,7 +183,7 @@ static void meshes_take_any_number(void **state)
                 scene.target = (gn_target)TEST_TARGET(64, 48);
                 size = gn_plan_bound(&scene);
                 memory = malloc(size);
-                if (gn_plan_make(context, &scene, memory, size, &plan) == GN_OK)
+                if (gn_plan_make(test_context, &scene, memory, size, &plan) == GN_OK)
                     check_plan(plan);
                 free(memory);
             }
@@ -214,7 +200,7 @@ static void the_rest_takes_any_number(void **state)
     int8_t facing[12];
 
     (void)state;
-    assert_int_equal(test_frame_make(&f, context, NULL, target), GN_OK);
+    assert_int_equal(test_frame_make(&f, test_context, NULL, target), GN_OK);
     for (int s = 0; s < STRANGE; s++) {
         double m[16], out[16];
 
@@ -235,11 +221,11 @@ static void the_rest_takes_any_number(void **state)
         }
         for (int k = 0; k < 3; k++) {
             gn_light light = f.lights[k % 2];
-            const gn_result result = gn_light_soften(context, &light, strange[s], 4, parts);
+            const gn_result result = gn_light_soften(test_context, &light, strange[s], 4, parts);
 
             assert_int_equal(result, isfinite(strange[s]) && strange[s] >= 0.0 ? GN_OK : GN_E_ARG);
             light.position[k] = light.towards[k] = strange[s];
-            gn_light_soften(context, &light, 1.0, 4, parts);
+            gn_light_soften(test_context, &light, 1.0, 4, parts);
         }
     }
     test_frame_drop(&f, NULL);
@@ -264,11 +250,11 @@ static void nothing_is_lawful(void **state)
     assert_string_equal(gn_capability_name((gn_capability)-1), "");
     assert_string_equal(gn_capability_summary((gn_capability)99), "");
     assert_null(gn_capability_parse(NULL, &set));
-    assert_int_equal(gn_plan_make(context, NULL, text, 4, NULL), GN_E_ARG);
+    assert_int_equal(gn_plan_make(test_context, NULL, text, 4, NULL), GN_E_ARG);
     assert_int_equal(gn_plan_make(NULL, NULL, NULL, 0, NULL), GN_E_ARG);
-    assert_int_equal(gn_mesh_create(context, NULL, NULL), GN_E_ARG);
+    assert_int_equal(gn_mesh_create(test_context, NULL, NULL), GN_E_ARG);
     assert_int_equal(gn_silhouette(NULL, NULL, NULL, 0, NULL), GN_E_ARG);
-    assert_int_equal(gn_light_soften(context, NULL, 1, 1, NULL), GN_E_ARG);
+    assert_int_equal(gn_light_soften(test_context, NULL, 1, 1, NULL), GN_E_ARG);
     assert_int_equal(gn_context_create(NULL, NULL), GN_E_ARG);
     assert_string_equal(gn_message(NULL), "no context");
     assert_null(gn_context_port(NULL));
@@ -276,7 +262,7 @@ static void nothing_is_lawful(void **state)
     gn_context_destroy(NULL);
     assert_int_equal(gn_gles_begin(NULL, NULL), GN_E_ARG);
     assert_int_equal(gn_gles_next(NULL, NULL), 0);
-    assert_int_equal(gn_gles_create(context, NULL, NULL), GN_E_ARG);
+    assert_int_equal(gn_gles_create(test_context, NULL, NULL), GN_E_ARG);
     assert_int_equal(gn_gles_upload(NULL, NULL), GN_E_ARG);
     assert_int_equal(gn_gles_describe_target(NULL, 0, 0, NULL, NULL), GN_E_ARG);
     gn_gles_unload(NULL, NULL);
@@ -290,5 +276,5 @@ int main(void)
         cmocka_unit_test(scenes_take_any_number), cmocka_unit_test(meshes_take_any_number),
         cmocka_unit_test(the_rest_takes_any_number), cmocka_unit_test(nothing_is_lawful)};
 
-    return cmocka_run_group_tests_name("numbers", tests, set_up, tear_down);
+    return cmocka_run_group_tests_name("numbers", tests, test_open_context, test_close_context);
 }

@@ -30,6 +30,22 @@ gn_port test_port_make(test_port *counter)
     return port;
 }
 
+gn_context *test_context;
+
+int test_open_context(void **state)
+{
+    (void)state;
+    return gn_context_create(NULL, &test_context) != GN_OK;
+}
+
+int test_close_context(void **state)
+{
+    (void)state;
+    gn_context_destroy(test_context);
+    test_context = NULL;
+    return 0;
+}
+
 uint32_t test_random(uint32_t *state)
 {
     *state ^= *state << 13;

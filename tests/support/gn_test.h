@@ -24,6 +24,11 @@ typedef struct test_port {
 
 gn_port test_port_make(test_port *counter);
 
+/* A context over libc's port for all tests of a group: its set-up and tear-down. */
+extern gn_context *test_context;
+int test_open_context(void **state);
+int test_close_context(void **state);
+
 /* xorshift; the seed must not be 0. */
 uint32_t test_random(uint32_t *state);
 double test_uniform(uint32_t *state, double low, double high);
