@@ -91,6 +91,41 @@ static int is_lit(const gn_light *l, const double p[3])
     return l->kind != GN_LIGHT_SPOT || l->cone == 0.0 || along >= cos(l->cone) * sqrt(square * length);
 }
 
+/* A point all but on the light's cone, in the world and in view space; 0 where it is not seen. */
+static int at_the_rim(const gn_light *l, const gn_camera *c, double p[3], double v[3])
+{
+    const double turn = test_uniform(&rng, 0, 6.3), along = test_uniform(&rng, 0.2, 9),
+                 wide = 0.999 * tan(l->cone) * along;
+    const double length =
+        sqrt(l->towards[0] * l->towards[0] + l->towards[1] * l->towards[1] + l->towards[2] * l->towards[2]);
+    double axis[3], u[3], w[3], size;
+
+    for (int i = 0; i < 3; i++)
+        axis[i] = -l->towards[i] / length;
+    u[0] = axis[1]; /* across the axis, whatever it is: axis x (axis turned) */
+    u[1] = axis[2];
+    u[2] = axis[0];
+    w[0] = axis[1] * u[2] - axis[2] * u[1];
+    w[1] = axis[2] * u[0] - axis[0] * u[2];
+    w[2] = axis[0] * u[1] - axis[1] * u[0];
+    size = sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+    for (int i = 0; i < 3; i++)
+        w[i] /= size;
+    u[0] = w[1] * axis[2] - w[2] * axis[1];
+    u[1] = w[2] * axis[0] - w[0] * axis[2];
+    u[2] = w[0] * axis[1] - w[1] * axis[0];
+    for (int i = 0; i < 3; i++)
+        p[i] = l->position[i] + along * axis[i] + wide * (cos(turn) * u[i] + sin(turn) * w[i]);
+    for (int k = 0; k < 3; k++) {
+        v[k] = 0.0;
+        for (int i = 0; i < 3; i++)
+            v[k] += c->world[4 * k + i] * (p[i] - c->world[12 + i]);
+    }
+    size = c->orthographic ? 1.0 : -v[2];
+    return v[2] < -c->znear && v[0] > c->left * size && v[0] < c->right * size && v[1] > c->bottom * size &&
+           v[1] < c->top * size;
+}
+
 /* Points of the view that are lit lie in the scissor and between the depth bounds. */
 static void what_is_lit_is_in_bounds(void **state)
 {
@@ -98,6 +133,8 @@ static void what_is_lit_is_in_bounds(void **state)
 
     (void)state;
     f.scene.light_count = 1;
+    f.scene.target.width = 2048; /* so that the pixel of margin is little */
+    f.scene.target.height = 1536;
     for (int trial = 0; trial < 3000; trial++) {
         const double q[4] = {test_uniform(&rng, -1, 1), test_uniform(&rng, -1, 1), test_uniform(&rng, -1, 1), 1};
         const double eye[3] = {test_uniform(&rng, -6, 6), test_uniform(&rng, -6, 6), test_uniform(&rng, -6, 6)};
@@ -111,26 +148,39 @@ static void what_is_lit_is_in_bounds(void **state)
         c->right = c->top = -c->left;
         gn_mat4_from_trs(c->world, eye, q, one);
         random_light(&f.lights[0]);
+        if (trial % 7 == 0) { /* a cone alone bounds it, before the eye and across the view */
+            const double turn = test_uniform(&rng, 0, 6.3), at[3] = {0.2, -0.3, test_uniform(&rng, -8, -3)};
+            const double across[3] = {cos(turn), sin(turn), 0.1};
+
+            f.lights[0] = (gn_light){.kind = GN_LIGHT_SPOT, .cone = test_uniform(&rng, 0.05, 0.4)};
+            gn_mat4_transform(f.lights[0].position, c->world, at, 1.0);
+            gn_mat4_transform(f.lights[0].towards, c->world, across, 0.0);
+        }
         /* everything around receives, so that a light is skipped for its bounds alone */
         f.objects[1].model[0] = f.objects[1].model[5] = f.objects[1].model[10] = 20;
         l = &plan()->lights[0];
         skipped += l->skip != GN_SKIP_NOT;
         for (int n = 0; n < 60; n++) {
             double v[3], p[3], x, y, depth;
-            const double reach = test_uniform(&rng, 0, 1) * (trial % 2 ? 3 : 20), distance = c->znear + reach;
-            const double scale = c->orthographic ? 1.0 : distance;
+            double distance = c->znear + test_uniform(&rng, 0, 1) * (trial % 2 ? 3 : 20);
+            double scale = c->orthographic ? 1.0 : distance;
             int in;
 
             v[0] = test_uniform(&rng, c->left, c->right) * scale;
             v[1] = test_uniform(&rng, c->bottom, c->top) * scale;
             v[2] = -distance;
             gn_mat4_transform(p, c->world, v, 1.0);
+            if (n % 2 && f.lights[0].kind == GN_LIGHT_SPOT && f.lights[0].cone > 0.0 &&
+                !at_the_rim(&f.lights[0], c, p, v))
+                continue;
+            distance = -v[2];
+            scale = c->orthographic ? 1.0 : distance;
             if (!is_lit(&f.lights[0], p)) {
                 outside++;
                 continue;
             }
-            x = (v[0] / scale - c->left) / (c->right - c->left) * 64;
-            y = (v[1] / scale - c->bottom) / (c->top - c->bottom) * 48;
+            x = (v[0] / scale - c->left) / (c->right - c->left) * 2048;
+            y = (v[1] / scale - c->bottom) / (c->top - c->bottom) * 1536;
             depth = c->orthographic
                         ? (distance - f.plan->depth_range[0]) / (f.plan->depth_range[1] - f.plan->depth_range[0])
                         : 1.0 - c->znear / distance;
