@@ -5,7 +5,8 @@
  * light cap that is the visible surface itself counts as behind it, and that is why a surface is unlit on the side
  * turned away from the light and lit on the other. Where stencil is two-sided one draw counts both ways, else two draws
  * do, a side each. Wrapping keeps their order from mattering; counts that stop at the ends start in the middle (the light's
- * layout says where, how far they reach, and which bits above them flag what earlier batches counted).
+ * layout says where and how far they reach). The flag above them, of what earlier batches counted, needs no mask: what is
+ * borrowed from it on the way comes back, since the sum is within the bits below.
  *
  * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other
  * face of a fold, lies less than a step behind the visible surface, and interpolation may put it before: the cap
@@ -102,7 +103,7 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, h
     const GLenum up = layout->wrap ? GL_INCR_WRAP : GL_INCR, down = layout->wrap ? GL_DECR_WRAP : GL_DECR;
     const gni_face rise = {zfail ? up : 0, zfail ? 0 : up}, fall = {zfail ? down : 0, zfail ? 0 : down};
     const int backs_rise = zfail != is_swapped(r, turned);
-    gni_state s = {.stencil_write = (1u << layout->bits) - 1u, /* a carry stays out of the flag */
+    gni_state s = {.stencil_write = ~0u,
                    .depth_func = GL_LESS,
                    .stencil_func = GL_ALWAYS,
                    .stencil_reference = layout->reference,
