@@ -9,7 +9,6 @@
  * its corners, meet the near plane. A sphere's outermost points along an axis are those where a line from the eye touches
  * its outline, a circle in the plane of that axis and the view's; or, where the near plane cuts them off, those on the near
  * plane. */
-#include "gn_matrix.h"
 #include "gni.h"
 
 #include <math.h>

@@ -4,7 +4,6 @@
  * the projection differ only in their last column, so that a vertex at infinity gets z = w exactly and is not clipped. A
  * camera's zfar is honoured by the depth to which the buffer is cleared. An orthographic camera spans a finite range,
  * and so does the camera of a host that insists on its own far plane. */
-#include "gn_matrix.h"
 #include "gni.h"
 
 #include <math.h>

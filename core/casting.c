@@ -9,7 +9,6 @@
  *
  * Solid angle of a triangle: van Oosterom and Strackee, The Solid Angle of a Plane Triangle, IEEE Transactions on
  * Biomedical Engineering 30(2), 1983. */
-#include "gn_matrix.h"
 #include "gni.h"
 
 #include <math.h>

@@ -9,7 +9,6 @@
  *
  * Light space is one plane before the light where all casters are seen within a cone of it, or are lit along one
  * direction; else the six faces of a cube around it. Points are homogeneous there: cell coordinates times w, and w. */
-#include "gn_matrix.h"
 #include "gni_plan.h"
 
 #include <math.h>
@@ -263,14 +262,6 @@ static void add_polygon(const gni_cells *cells, gni_grid *grid, double points[][
     }
 }
 
-static void vertex_in_view(const gn_mesh *mesh, const double model_view[16], uint32_t vertex, double out[3])
-{
-    const float *p = mesh->positions + 3 * (size_t)vertex;
-    const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
-
-    gn_mat4_transform(out, model_view, given, 1.0);
-}
-
 void gni_cells_add_triangles(const gni_cells *cells, gni_grid *grid, const gn_mesh *mesh, const double model_view[16],
                              const int8_t *casting, const uint32_t *list, uint32_t count)
 {
@@ -279,7 +270,7 @@ void gni_cells_add_triangles(const gni_cells *cells, gni_grid *grid, const gn_me
         double v[3][3];
 
         for (int k = 0; k < 3; k++)
-            vertex_in_view(mesh, model_view, c[k], v[k]);
+            gni_vertex(v[k], mesh, c[k], model_view);
         add_polygon(cells, grid, v, 3, count <= FEW ? 0.5 : 0.0, 1);
         for (uint32_t k = 0; k < 3 && count > FEW; k++) {
             const uint32_t corner = 3 * list[i] + k, edge = mesh->edge_of[corner];

@@ -23,7 +23,6 @@
  * as many closed volumes as there are planes. A triangle that no face serves (a large one, seen under a wide angle from
  * a light close to it) gets a plane parallel to itself. Volumes that touch have sides back to back: where a surface cuts
  * such a seam within a step or two of depth, a pixel may come out wrong. */
-#include "gn_matrix.h"
 #include "gni.h"
 
 #include <math.h>
@@ -199,12 +198,8 @@ typedef struct search {
 
 static void triangle_in_view(const search *s, uint32_t triangle, double v[3][3])
 {
-    for (int k = 0; k < 3; k++) {
-        const float *p = s->mesh->positions + 3 * (size_t)s->mesh->triangles[3 * (size_t)triangle + (size_t)k];
-        const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
-
-        gn_mat4_transform(v[k], s->model_view, given, 1.0);
-    }
+    for (int k = 0; k < 3; k++)
+        gni_vertex(v[k], s->mesh, s->mesh->triangles[3 * (size_t)triangle + (size_t)k], s->model_view);
 }
 
 /* The greatest view distance of a triangle and its end on a plane; INFINITY when the plane cannot end it; -INFINITY

@@ -5,7 +5,6 @@
  * (DESIGN.md, decision 5; McGuire's trap). A fan about a vertex from which a silhouette turns back covers some pixels three
  * times for once. So the vertex taken is the one nearest to the middle as the light sees it, and only if all edges run
  * around it the same way: then the fan covers a direction exactly as often as the casting triangles do. */
-#include "gn_matrix.h"
 #include "gni.h"
 
 #include <math.h>
@@ -14,10 +13,7 @@
 static void spoke(double out[3], const gn_mesh *mesh, uint32_t vertex, const double model_view[16],
                   const double light[4])
 {
-    const float *p = mesh->positions + 3 * (size_t)vertex;
-    const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
-
-    gn_mat4_transform(out, model_view, given, 1.0);
+    gni_vertex(out, mesh, vertex, model_view);
     for (int k = 0; k < 3; k++)
         out[k] -= light[k];
 }

@@ -1,6 +1,7 @@
 /* gni.h - what the files of core/ share with each other and with nobody else. */
 #ifndef GNI_H
 #define GNI_H
+#include "gn_matrix.h"
 #include "gnomon.h"
 
 #define GNI_NONE 0xffffffffu
@@ -86,6 +87,15 @@ static inline int32_t gni_edge_weight(const gn_mesh *mesh, uint32_t edge, const 
         weight += mesh->uses[u] & GNI_USE_DOWN ? -c : c;
     }
     return weight;
+}
+
+/* A welded vertex by a matrix, mostly into view space. */
+static inline void gni_vertex(double out[3], const gn_mesh *mesh, uint32_t vertex, const double matrix[16])
+{
+    const float *p = mesh->positions + 3 * (size_t)vertex;
+    const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
+
+    gn_mat4_transform(out, matrix, given, 1.0);
 }
 
 /* volume.c: the index stream of one chunk of a volume. */

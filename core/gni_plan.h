@@ -89,6 +89,12 @@ gn_result gni_add_light(gni_draft *d, uint32_t light);
 /* Homogeneous, in view space, the eye subtracted first. */
 void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4]);
 
+/* receivers.c: for a flat caster, its plane in view space, positive where the light is, if the eye is there too and all of the
+ * caster is drawn; else 0. */
+int gni_lit_side(const gni_draft *d, uint32_t object, double plane[4]);
+/* Whether the volume may touch something that receives, is seen and lit. plane: of gni_lit_side(), or NULL. */
+int gni_shadows_anything(const gni_draft *d, uint32_t object, const gni_hull *volume, const double *plane);
+
 /* A closed volume of the caster at hand. */
 typedef struct gni_volume {
     uint32_t object;

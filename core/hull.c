@@ -7,7 +7,6 @@
  *
  * An axis that was made at right angles to a direction is so but for rounding, and sees no end that way: the shift that the
  * rounding makes is far below the margin wherever the other body, which has an end, can be touched. */
-#include "gn_matrix.h"
 #include "gni.h"
 
 #include <math.h>

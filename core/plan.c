@@ -6,7 +6,6 @@
  * 9). plan_light.c decides a light.
  *
  * Memory is cut from the given block from its front: the bound and the plan walk the same list of arrays. */
-#include "gn_matrix.h"
 #include "gni_plan.h"
 
 #include <math.h>

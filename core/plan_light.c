@@ -3,12 +3,9 @@
  *
  * *Model only what a scene requires*: the method stencil asks of every light where it is seen, and of every caster whether
  * it is within reach and whether its volume touches anything that receives, is seen and is lit. What is not, costs
- * nothing, and the plan says why. A floor on which all stands shadows nothing: flat casters that the eye and the light see
- * from the same side shadow nothing on that side, nor themselves. Their volumes are left out where their border is out of
- * view: on the border itself rasterised depths of surface and side may disagree, and both ways of counting do alike.
+ * nothing, and the plan says why.
  *
  * The other methods draw every caster in the whole target: they are what stencil is measured by. */
-#include "gn_matrix.h"
 #include "gni_plan.h"
 
 #include <math.h>
@@ -26,116 +23,6 @@ void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4])
     for (int i = 0; i < 3; i++)
         out[i] = c->world[4 * i] * v[0] + c->world[4 * i + 1] * v[1] + c->world[4 * i + 2] * v[2];
     out[3] = is_sun ? 0.0 : 1.0;
-}
-
-/* The plane of a planar mesh in view space; 0 when it has none. */
-static int plane_in_view(const gn_object *object, const gn_camera *camera, double plane[4])
-{
-    const gn_mesh *mesh = object->mesh;
-    double model_view[16];
-    uint32_t t = 0;
-
-    if (!mesh->info.planar)
-        return 0;
-    while (mesh->planes[4 * (size_t)t] == 0.0 && mesh->planes[4 * (size_t)t + 1] == 0.0 &&
-           mesh->planes[4 * (size_t)t + 2] == 0.0)
-        t++; /* one has an area, since the mesh is planar */
-    gni_model_view(model_view, camera, object->model, mesh->info.centre);
-    {
-        double v[3][3], a[3], b[3];
-
-        for (int k = 0; k < 3; k++) {
-            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
-            const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
-
-            gn_mat4_transform(v[k], model_view, given, 1.0);
-        }
-        for (int k = 0; k < 3; k++) {
-            a[k] = v[1][k] - v[0][k];
-            b[k] = v[2][k] - v[0][k];
-        }
-        gni_cross(plane, a, b);
-        plane[3] = -gni_dot(plane, v[0]);
-    }
-    return gni_dot(plane, plane) > 0.0;
-}
-
-/* For a flat caster: its plane, positive where the light is, if the eye is there too and all of the caster is drawn. */
-static int lit_side(const gni_draft *d, uint32_t object_index, double plane[4])
-{
-    const gn_camera *camera = &d->scene->camera;
-    const gn_object *object = &d->scene->objects[object_index];
-    const double *light = d->bounds.light;
-    const double front = d->objects[object_index].mirrored ? -1.0 : 1.0;
-    double of_light, of_eye;
-
-    if (!(object->flags & GN_DRAWN) || !plane_in_view(object, camera, plane))
-        return 0;
-    of_light = gni_dot(plane, light) + plane[3] * light[3];
-    of_eye = camera->orthographic ? plane[2] : plane[3]; /* the eye is at 0 0 0, or infinitely far along z */
-    if (!(object->flags & GN_DRAWN_BACKS) && !(object->mesh->info.planar == 2 && front * of_eye > 0.0))
-        return 0;
-    if (of_light < 0.0)
-        for (int k = 0; k < 4; k++)
-            plane[k] = -plane[k];
-    return (of_light > 0.0 && of_eye > 0.0) || (of_light < 0.0 && of_eye < 0.0);
-}
-
-/* Whether the border of a flat caster, all of which casts, is out of view. */
-static int border_is_unseen(const gni_draft *d, uint32_t object)
-{
-    const gn_mesh *mesh = d->scene->objects[object].mesh;
-    double model_view[16];
-
-    gni_model_view(model_view, &d->scene->camera, d->scene->objects[object].model, mesh->info.centre);
-    for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
-        const uint32_t uses = mesh->edge_uses[e + 1] - mesh->edge_uses[e];
-        const uint32_t *use = mesh->uses + mesh->edge_uses[e], corner = use[0] & GNI_USE_CORNER;
-        gni_hull edge = {{{0}}, 2, {{0}}, 0, {{0}}};
-
-        if (uses == 2 && (use[0] ^ use[1]) & GNI_USE_DOWN)
-            continue; /* inside */
-        for (uint32_t i = 0; i < 2; i++) {
-            const uint32_t end = i == 0 ? corner : corner % 3 == 2 ? corner - 2 : corner + 1;
-            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[end];
-            const double given[3] = {(double)p[0], (double)p[1], (double)p[2]};
-
-            gn_mat4_transform(edge.points[i], model_view, given, 1.0);
-        }
-        if (gni_may_be_seen(&d->seen, &edge))
-            return 0;
-    }
-    return 1;
-}
-
-static int lies_before(const gni_hull *box, const double plane[4])
-{
-    double least = INFINITY, scale = fabs(plane[3]);
-
-    for (int i = 0; i < 8; i++) {
-        least = fmin(least, gni_dot(plane, box->points[i]) + plane[3]);
-        for (int k = 0; k < 3; k++)
-            scale = fmax(scale, fabs(plane[k] * box->points[i][k]));
-    }
-    return least >= -GNI_MARGIN * scale;
-}
-
-/* Whether the volume may touch something that receives, is seen and lit. plane: of lit_side(), or NULL. */
-static int shadows_anything(const gni_draft *d, uint32_t object, const gni_hull *volume, const double *plane)
-{
-    const int is_flat = plane && border_is_unseen(d, object);
-
-    if (!d->receivers_are_known)
-        return 1;
-    for (uint32_t i = 0; i < d->scene->object_count; i++) {
-        if (!(d->is_in[i] & GNI_IN_LIT) || !(d->scene->objects[i].flags & GN_RECEIVES))
-            continue;
-        if (is_flat && (i == object || lies_before(&d->boxes[i], plane)))
-            continue;
-        if (i == object || !gni_volume_misses(volume, d->bounds.light, &d->boxes[i]))
-            return 1;
-    }
-    return 0;
 }
 
 static int is_exempt(const gn_light *light, uint32_t object)
@@ -171,9 +58,9 @@ static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand)
     gni_find_case(at_hand, &d->seen, &d->boxes[object], &volume, d->bounds.light);
     if (!(at_hand->seen & GNI_SEES_VOLUME))
         return GN_SKIP_OUT_OF_VIEW;
-    is_flat = lit_side(d, object, plane);
+    is_flat = gni_lit_side(d, object, plane);
     at_hand->is_drawn = is_flat || (flags & all_drawn) == all_drawn;
-    return shadows_anything(d, object, &volume, is_flat ? plane : NULL) ? GN_SKIP_NOT : GN_SKIP_NO_RECEIVER;
+    return gni_shadows_anything(d, object, &volume, is_flat ? plane : NULL) ? GN_SKIP_NOT : GN_SKIP_NO_RECEIVER;
 }
 
 /* Records of all casters, in one batch or in as many as it takes. */

@@ -4,7 +4,6 @@
  * z-pass alone, and so McGuire's case 1, leaves the light cap out where the caster itself is seen in its place: every
  * triangle of it drawn to depth, whichever side the eye sees (DESIGN.md, decision 4). Hosts that cull draw none of the slivers
  * that turn over when their vertices are rounded, and such a hole would be counted. */
-#include "gn_matrix.h"
 #include "gni_plan.h"
 
 #include <math.h>
