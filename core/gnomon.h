@@ -167,16 +167,15 @@ typedef enum gn_light_kind { GN_LIGHT_POINT, GN_LIGHT_SPOT, GN_LIGHT_DIRECTIONAL
 typedef struct gn_light {
     gn_light_kind kind;
     double position[3]; /* world; point and spot */
-    double towards
-        [3];      /* world, any length but 0: towards a directional light; of a spot with a cone, where its light comes
-                           from: against its axis */
+    /* world, any length but 0: towards a directional light; of a spot with a cone, against its axis */
+    double towards[3];
     double cone;  /* spot: half the angle of its cone, radians, less than pi / 2 [no cone] */
     double range; /* point and spot: nothing farther is lit [unlimited] */
     /* The most that it adds to a pixel where its attenuation is 1, by channel, 1 being full: its reach is the distance from
      * which on every channel stays under half a step of the target's bits, which then add nothing [unlimited] */
     double color[3];
     double attenuation[3];         /* k of 1 / (k[0] + k[1] d + k[2] d^2) at the distance d [1: none] */
-    double box_min[3], box_max[3]; /* world: nothing outside is lit, by a light of any kind [no box] */
+    double box_min[3], box_max[3]; /* world: nothing outside is lit, by a light of any kind [both 0: no box] */
     const uint32_t *exempt;        /* [exempt_count] objects that do not cast in its light; borrowed for the call */
     uint32_t exempt_count;
 } gn_light;
@@ -187,8 +186,10 @@ typedef struct gn_light {
 gn_result gn_light_soften(gn_context *context, const gn_light *light, double radius, uint32_t count, gn_light *out);
 
 enum {
-    GN_CASTS = 1,      /* its triangles block light */
-    GN_RECEIVES = 2,   /* it is drawn under the mask; without: lit as if nothing stood in the way */
+    GN_CASTS = 1, /* its triangles block light */
+    /* It is drawn under the mask; without: lit as if nothing stood in the way. What does not touch an object with this flag need
+     * not be drawn, once any object has it: so all that receives must be among the objects then. */
+    GN_RECEIVES = 2,
     GN_DRAWN = 4,      /* every triangle whose front the eye sees is drawn to depth: none is cut by alpha or left out */
     GN_DRAWN_BACKS = 8 /* and so is every one whose back it sees. With both flags z-pass does without its light cap */
 };
@@ -275,7 +276,7 @@ typedef struct gn_scene {
     gn_method method;
     int one_sided; /* 1: one side of volumes at a time, even where two-sided stencil is proven */
     /* 1: of coincident surfaces only the first that is drawn is lit, by counting in the light's pass (Everitt 2002, section
-     * 6, step E); otherwise their light adds up where their depths are the same */
+     * 6, step E), and the host may write no stencil of its own; otherwise their light adds up where their depths are the same */
     int blend_once;
     /* A choice: lights that add no more than this to any pixel are left out, by the method stencil. Their bounds, colors and
      * attenuations must be given; gn_plan_light.possible_error says what may be missing [0: none is left out] */
@@ -362,7 +363,7 @@ typedef struct gn_plan_caster {
     uint8_t mcguire_case; /* 1 to 3; 0 when it is skipped */
     uint8_t parts;        /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: drawn */
     uint8_t fan;          /* its dark cap is a fan */
-    uint8_t is_lit; /* 0: it is out of view or of the light's bounds: the host need not draw it in the light's pass */
+    uint8_t is_lit;       /* 0: out of view or of the light's bounds; the host need not draw it in the light's passes */
 } gn_plan_caster;
 
 /* What a plan cannot keep, known before the frame. */

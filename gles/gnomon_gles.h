@@ -13,6 +13,8 @@
  * surface computes its position by GN_GLSL_POSITION, from vertices less the mesh's centre (gn_mesh_info.centre), with
  * gn_plan_object.matrix.
  *
+ * In a light's passes only objects need be drawn whose gn_plan_caster.is_lit says so.
+ *
  * GL state. Between gn_gles_begin() and the end of the walk the host may change anything but the bound framebuffer.
  *
  *     on entry   the framebuffer that the plan's target describes is bound, to draw and to read; no GL error is pending;
