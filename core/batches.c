@@ -1,17 +1,18 @@
 /* batches.c - counts beyond the stencil's bits: volumes in batches, and casters cut into pieces.
  *
  * A count of n bits that wraps tells 2^n - 1 volumes from none; 256 around a point look like none. Whether so many can lie
- * around one is asked in steps, each dearer than the one before: how many triangles cast at all; half the length of
- * silhouettes, since a line that passes L layers of casters beside the light crosses silhouettes 2 L times on its way in
- * and out; boxes in cells of light space; and at last triangles and silhouettes in those cells. Most scenes end at
+ * around one is asked in steps, each dearer than the one before: how many triangles cast at all; half the number of
+ * silhouette edges, since as the light sees it a line over a point with L layers crosses L of them on its way in and L on its
+ * way out; boxes in cells of light space; triangles and silhouettes in those; and at last in parts of
+ * cells. Most scenes end at
  * the first or second.
  *
  * Where they do not, one bit becomes a flag and the rest counts in batches; between two batches what is counted is folded
  * into the flag (DESIGN.md, decision 10). A caster that alone is too much is cut into chains: triangles that hang together
  * through edges where they cancel. Cut so, no new side arises. Only a chain that alone nests too much, such as a helix, is
- * cut through; each piece then also takes the triangles beyond the cut, so that no seam is the edge of both pieces
- * beside it: what a surface would lose where it meets a seam within a step of depth, the other piece covers. (What is
- * covered twice is shadowed all the same.) */
+ * cut through; a piece then also takes the triangles beyond the cut, where limit, room and the chunk of 16-bit indices allow it
+ * (for one of the two beside a seam they mostly do), so that a surface that meets a seam within a step of depth loses
+ * nothing. What is covered twice is shadowed all the same. */
 #include "gni_plan.h"
 
 #include <string.h>
@@ -66,29 +67,27 @@ static void unmark(const cutter *c, const uint32_t *list, uint32_t count)
         c->d->piece[list[i]] = 0;
 }
 
-/* Layers of the marked triangles of list[count]: not more than there are triangles. */
-static uint32_t measure(const cutter *c, gni_grid *grid, const uint32_t *list, uint32_t count)
+/* Layers of the marked triangles of list[count], into the grid of the piece at hand. */
+static uint32_t measure(const cutter *c, const uint32_t *list, uint32_t count)
 {
-    memset(grid, 0, sizeof *grid);
-    gni_cells_add_triangles(&c->d->layers->cells, grid, c->mesh, c->model_view, c->d->piece, list, count);
-    for (size_t i = 0; i < GNI_CELLS; i++)
-        grid->layers[i] = grid->layers[i] < count ? grid->layers[i] : (uint16_t)count;
-    return gni_most_layers(&c->d->layers->cells, grid, NULL);
+    gni_layers *l = c->d->layers;
+
+    return gni_measure_triangles(&l->cells, &l->piece, &l->scratch, c->mesh, c->model_view, c->d->piece, list, count);
 }
 
-/* The marked piece, whose layers are in `grid`, into this batch or the next. */
-static void emit(const cutter *c, const gni_grid *grid)
+/* The marked piece, which was measured last, into this batch or the next. */
+static void emit(const cutter *c)
 {
     gni_draft *d = c->d;
     gni_layers *l = d->layers;
     gn_plan_light *about = &d->lights[d->light];
     uint32_t most;
 
-    if (gni_most_layers(&l->cells, &l->batch, grid) > c->limit) {
+    if (gni_most_layers(&l->cells, &l->batch, &l->piece) > c->limit) {
         gni_end_batch(d, 1);
         memset(&l->batch, 0, sizeof l->batch);
     }
-    gni_add_grid(&l->cells, &l->batch, grid);
+    gni_add_grid(&l->cells, &l->batch, &l->piece);
     most = gni_most_layers(&l->cells, &l->batch, NULL);
     about->layers = about->layers > most ? about->layers : most;
     gni_add_records(d, c->volume, d->piece);
@@ -125,11 +124,10 @@ static uint32_t add_ring(const cutter *c, const uint32_t *list, uint32_t count, 
 static void cut_through(cutter *c, const uint32_t *list, uint32_t count)
 {
     gni_draft *d = c->d;
-    gni_grid *grid = &d->layers->chain;
     uint32_t total;
 
     mark(c, list, count);
-    if (measure(c, grid, list, count) > c->limit) {
+    if (measure(c, list, count) > c->limit) {
         unmark(c, list, count);
         cut_through(c, list, count / 2);
         cut_through(c, list + count / 2, count - count / 2);
@@ -138,12 +136,12 @@ static void cut_through(cutter *c, const uint32_t *list, uint32_t count)
     total = add_ring(c, list, count, d->ring);
     c->to_do -= count;
     if (GNI_MOST_INDICES * ((uint64_t)total + c->to_do) > c->indices_end - d->plan->index_count ||
-        measure(c, grid, d->ring, total) > c->limit) {
+        measure(c, d->ring, total) > c->limit) {
         unmark(c, d->ring + count, total - count);
         total = count;
-        measure(c, grid, list, count);
+        measure(c, list, count);
     }
-    emit(c, grid);
+    emit(c);
     unmark(c, d->ring, total);
 }
 
@@ -200,41 +198,76 @@ static uint32_t sort_chains(const cutter *c)
     return total;
 }
 
+static uint32_t chain_end(const cutter *c, uint32_t at)
+{
+    return c->d->end[c->d->parent[c->d->order[at]]];
+}
+
+/* Whether the triangles order[from .. to) keep within the limit. */
+static int fits(const cutter *c, uint32_t from, uint32_t to)
+{
+    const uint32_t *list = c->d->order + from;
+    uint32_t most;
+
+    mark(c, list, to - from);
+    most = measure(c, list, to - from);
+    unmark(c, list, to - from);
+    return most <= c->limit;
+}
+
+/* Where the longest run of whole chains from `from` on ends that keeps within the limit; `from` when not even one does. Each
+ * look costs as much as a grid has cells: so runs are doubled, and the last doubling halved. */
+static uint32_t longest_run(const cutter *c, uint32_t from, uint32_t count)
+{
+    const uint32_t *order = c->d->order, *parent = c->d->parent;
+    uint32_t good = chain_end(c, from), bad = count;
+
+    if (!fits(c, from, good))
+        return from;
+    while (good < count) {
+        const uint32_t more = good - from < count - good ? good - from : count - good;
+        const uint32_t next = chain_end(c, good + more - 1);
+
+        if (!fits(c, from, next)) {
+            bad = next;
+            break;
+        }
+        good = next;
+    }
+    while (bad - good > (good - from) / 8) { /* near enough: it has eight ninths of the limit's triangles then */
+        const uint32_t at = good + (bad - good - 1) / 2;
+        uint32_t middle = chain_end(c, at);
+
+        if (middle >= bad) /* the chain there is the one that is too much: what comes before it */
+            for (middle = at; middle > good && parent[order[middle - 1]] == parent[order[at]];)
+                middle--;
+        if (middle <= good)
+            break;
+        if (fits(c, from, middle))
+            good = middle;
+        else
+            bad = middle;
+    }
+    return good;
+}
+
 /* Groups of chains, as many in each as keep within the limit. */
 static void add_chains(cutter *c, uint32_t count)
 {
     gni_draft *d = c->d;
-    gni_layers *l = d->layers;
-    const uint32_t *order = d->order;
-    uint32_t group = 0, to;
 
-    memset(&l->group, 0, sizeof l->group);
-    for (uint32_t from = 0; from < count; from = to) {
-        uint32_t most;
-
-        to = d->end[d->parent[order[from]]];
-        mark(c, order + from, to - from);
-        most = measure(c, &l->chain, order + from, to - from);
-        unmark(c, order + from, to - from);
-        if (from > group && gni_most_layers(&l->cells, &l->group, &l->chain) > c->limit) {
-            mark(c, order + group, from - group);
-            emit(c, &l->group);
-            unmark(c, order + group, from - group);
-            c->to_do -= from - group;
-            group = from;
-            memset(&l->group, 0, sizeof l->group);
+    for (uint32_t from = 0, to; from < count; from = to) {
+        to = longest_run(c, from, count);
+        if (to == from) {
+            to = chain_end(c, from);
+            cut_through(c, d->order + from, to - from);
+            continue;
         }
-        if (most > c->limit) {
-            cut_through(c, order + from, to - from);
-            group = to;
-        } else {
-            gni_add_grid(&l->cells, &l->group, &l->chain);
-        }
-    }
-    if (count > group) {
-        mark(c, order + group, count - group);
-        emit(c, &l->group);
-        unmark(c, order + group, count - group);
+        mark(c, d->order + from, to - from);
+        measure(c, d->order + from, to - from);
+        emit(c);
+        unmark(c, d->order + from, to - from);
+        c->to_do -= to - from;
     }
 }
 
@@ -248,15 +281,67 @@ void gni_add_batched(gni_draft *d, const gni_volume *volume, const int8_t *casti
     c.to_do = sort_chains(&c);
     c.indices_end = d->plan->index_count + GNI_MOST_INDICES * c.to_do;
     mark(&c, d->order, c.to_do);
-    if (measure(&c, &d->layers->group, d->order, c.to_do) <= c.limit) {
-        emit(&c, &d->layers->group);
+    if (measure(&c, d->order, c.to_do) <= c.limit) {
+        emit(&c);
     } else {
         unmark(&c, d->order, c.to_do);
         add_chains(&c, c.to_do);
     }
 }
 
-/* What is known cheaply; then all casting triangles of the light's casters in cells, boxes first. */
+/* All casting triangles of the light's casters. Returns the most layers of a cell. */
+static uint32_t measure_all(gni_draft *d, const gni_cells *cells, gni_grid *grid)
+{
+    memset(grid, 0, sizeof *grid);
+    for (uint32_t i = 0; i < d->scene->object_count; i++) {
+        const gn_object *object = &d->scene->objects[i];
+        double model_view[16];
+        uint32_t count = 0;
+
+        if (!(d->is_in[i] & GNI_IN_CAST))
+            continue;
+        gn_object_casting(object, &d->scene->lights[d->light], d->casting);
+        for (uint32_t t = 0; t < object->mesh->info.triangle_count; t++)
+            if (d->casting[t])
+                d->order[count++] = t;
+        gni_model_view(model_view, &d->scene->camera, object->model, object->mesh->info.centre);
+        gni_measure_triangles(cells, &d->layers->piece, &d->layers->scratch, object->mesh, model_view, d->casting,
+                              d->order, count);
+        gni_add_grid(cells, grid, &d->layers->piece);
+    }
+    return gni_most_layers(cells, grid, NULL);
+}
+
+/* Looks closer at cells with more layers than the limit: silhouettes of fine meshes crowd in a cell, but not at one place.
+ * Returns the most that there may be, or more than the limit. */
+static uint32_t zoom_in(gni_draft *d, uint32_t limit)
+{
+    gni_layers *l = d->layers;
+    const int count = l->cells.face_count * l->cells.side * l->cells.side;
+    uint32_t most = 0, hot_count = 0;
+    int hot[GNI_MOST_ZOOMS];
+    gni_grid *const sum = &l->zoomed;
+
+    for (int i = 0; i < count; i++) {
+        if (l->batch.layers[i] <= limit)
+            most = most > l->batch.layers[i] ? most : l->batch.layers[i];
+        else if (hot_count == GNI_MOST_ZOOMS)
+            return l->batch.layers[i];
+        else
+            hot[hot_count++] = i;
+    }
+    for (uint32_t i = 0; i < hot_count && most <= limit; i++) {
+        gni_cells closer;
+        uint32_t layers;
+
+        gni_zoom_cells(&closer, &l->cells, hot[i]);
+        layers = measure_all(d, &closer, sum);
+        most = most > layers ? most : layers;
+    }
+    return most;
+}
+
+/* What is known cheaply; then boxes in cells; then triangles; and where these are too many, a closer look. */
 int gni_layers_fit(gni_draft *d, uint32_t limit)
 {
     gni_layers *l = d->layers;
@@ -270,25 +355,9 @@ int gni_layers_fit(gni_draft *d, uint32_t limit)
         if (d->is_in[i] & GNI_IN_CAST)
             gni_cells_add_box(&l->cells, &l->batch, &d->boxes[i], d->cheap_of[i]);
     about->layers = gni_most_layers(&l->cells, &l->batch, NULL);
-    if (about->layers <= limit)
-        return 1;
-    memset(&l->batch, 0, sizeof l->batch);
-    for (uint32_t i = 0; i < d->scene->object_count; i++)
-        if (d->is_in[i] & GNI_IN_CAST) {
-            const gn_object *object = &d->scene->objects[i];
-            const gni_volume volume = {i, NULL, GN_FAR_INFINITE, NULL, 0.0};
-            cutter c = {d, &volume, object->mesh, d->casting, {0}, limit, 0, 0};
-
-            gn_object_casting(object, &d->scene->lights[d->light], d->casting);
-            gni_model_view(c.model_view, &d->scene->camera, object->model, object->mesh->info.centre);
-            for (uint32_t t = 0; t < object->mesh->info.triangle_count; t++) {
-                d->piece[t] = d->casting[t];
-                if (d->casting[t])
-                    d->order[c.to_do++] = t;
-            }
-            measure(&c, &l->group, d->order, c.to_do);
-            gni_add_grid(&l->cells, &l->batch, &l->group);
-        }
-    about->layers = gni_most_layers(&l->cells, &l->batch, NULL);
+    if (about->layers > limit)
+        about->layers = measure_all(d, &l->cells, &l->batch);
+    if (about->layers > limit)
+        about->layers = zoom_in(d, limit);
     return about->layers <= limit;
 }

@@ -27,11 +27,6 @@ void gn_facing(const gn_mesh *mesh, const double light[4], int8_t *facing)
         facing[t] = facing_of(mesh->planes + 4 * (size_t)t, light);
 }
 
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 /* The winding number of a closed part about a point; a half where the point lies on a triangle, or as good as on it. */
 static double winding(const gn_mesh *mesh, const gni_part *part, const double point[4])
 {
@@ -44,12 +39,13 @@ static double winding(const gn_mesh *mesh, const gni_part *part, const double po
         for (int k = 0; k < 3; k++) {
             for (int axis = 0; axis < 3; axis++)
                 v[k][axis] = (double)mesh->positions[3 * (size_t)c[k] + (size_t)axis] - point[axis];
-            length[k] = sqrt(dot(v[k], v[k]));
+            length[k] = sqrt(gni_dot(v[k], v[k]));
         }
         triple = v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) + v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) +
                  v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
         lengths = length[0] * length[1] * length[2];
-        rest = lengths + dot(v[0], v[1]) * length[2] + dot(v[1], v[2]) * length[0] + dot(v[2], v[0]) * length[1];
+        rest = lengths + gni_dot(v[0], v[1]) * length[2] + gni_dot(v[1], v[2]) * length[0] +
+               gni_dot(v[2], v[0]) * length[1];
         if (rest <= 1e-12 * lengths && fabs(triple) <= 1e-12 * lengths)
             return 0.5;
         angle += atan2(triple, rest);

@@ -4,8 +4,8 @@
  * A point's count is the number of casting triangles that block its line to the light, and that is a matter of the
  * direction as seen from the light, but for how far the line goes. In a cell of directions the number changes only where the
  * silhouette runs through: it is nowhere more than at the cell's centre and the weights of the silhouette edges that
- * touch the cell together (DESIGN.md, decision 10). Few triangles are bounded more simply, by how many of them touch
- * the cell. Triangles count at a centre when they touch it, rounding and all: too many is safe.
+ * touch the cell together (DESIGN.md, decision 10); nor more than the triangles that touch the cell, which is less where
+ * they are few and lie apart. Triangles count at a centre when they touch it, rounding and all: too many is safe.
  *
  * Light space is one plane before the light where all casters are seen within a cone of it, or are lit along one
  * direction; else the six faces of a cube around it. Points are homogeneous there: cell coordinates times w, and w. */
@@ -17,7 +17,6 @@
 #define NARROW 0.2   /* cosine of half the widest cone that one plane takes */
 #define TINY   1e-12 /* of the size: what is nearer to the light's own plane has no place in a cell */
 #define TOUCH  1e-3  /* of a cell: an edge so near touches */
-#define FEW    8     /* triangles that are bounded one by one */
 
 /* A face looks along z; its cells span low to high of x / z and y / z, or of x and y where the light is directional. */
 static void add_face(gni_cells *cells, const double axes[3][3], const double light[4], const double low[2],
@@ -122,6 +121,19 @@ void gni_fit_cells(gni_cells *cells, const gni_hull *boxes, const uint8_t *is_in
     }
 }
 
+void gni_zoom_cells(gni_cells *out, const gni_cells *from, int cell)
+{
+    const int area = from->side * from->side, place[2] = {cell % area % from->side, cell % area / from->side};
+
+    memset(out, 0, sizeof *out);
+    out->face_count = 1;
+    out->side = GNI_ZOOM_SIDE;
+    memcpy(out->rows[0], from->rows[cell / area], sizeof out->rows[0]);
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 4; k++)
+            out->rows[0][i][k] = (out->rows[0][i][k] - place[i] * out->rows[0][2][k]) * out->side;
+}
+
 /* A polygon in cell coordinates, what lies at w > 0 of it. */
 typedef struct outline {
     double at[5][2];
@@ -162,18 +174,20 @@ static void project(outline *out, const gni_cells *cells, int face, double point
     }
 }
 
-/* Whether the convex outline comes within half a cell of the centre on both axes (reach 0.5), or to the centre (0). */
-static int touches(const outline *o, double sign, const double centre[2], double reach)
+/* How far a point lies inside the convex outline; negative outside. By the greatest step on either axis, in cells: half a cell
+ * outside, an edge touches the cell around the point. */
+static double depth_in(const outline *o, double sign, const double centre[2])
 {
+    double least = INFINITY;
+
     for (int i = 0; i < o->count; i++) {
         const double *a = o->at[i], *b = o->at[(i + 1) % o->count];
-        const double dx = b[0] - a[0], dy = b[1] - a[1];
-        const double inside = sign * (dx * (centre[1] - a[1]) - dy * (centre[0] - a[0]));
+        const double dx = b[0] - a[0], dy = b[1] - a[1], size = fabs(dx) + fabs(dy);
 
-        if (inside < -(reach + TOUCH) * (fabs(dx) + fabs(dy)))
-            return 0;
+        if (size > 0.0)
+            least = fmin(least, sign * (dx * (centre[1] - a[1]) - dy * (centre[0] - a[0])) / size);
     }
-    return 1;
+    return least;
 }
 
 static void raise(uint16_t *cell, uint32_t amount)
@@ -181,10 +195,11 @@ static void raise(uint16_t *cell, uint32_t amount)
     *cell = (uint16_t)(*cell + amount < UINT16_MAX ? *cell + amount : UINT16_MAX);
 }
 
-static void add_outline(const gni_cells *cells, gni_grid *grid, int face, const outline *o, double reach,
-                        uint32_t amount)
+/* To cells that it touches, and to those whose centre it holds; either grid may be NULL. */
+static void add_outline(const gni_cells *cells, int face, const outline *o, uint32_t amount, gni_grid *touched,
+                        gni_grid *centred)
 {
-    uint16_t *const first = grid->layers + face * cells->side * cells->side;
+    const int first = face * cells->side * cells->side;
     double area = 0.0, low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY}, centre[2];
     int from[2], to[2];
 
@@ -205,10 +220,15 @@ static void add_outline(const gni_cells *cells, gni_grid *grid, int face, const 
     }
     for (int y = from[1]; y < to[1]; y++)
         for (int x = from[0]; x < to[0]; x++) {
+            double depth;
+
             centre[0] = x + 0.5;
             centre[1] = y + 0.5;
-            if (o->everywhere || touches(o, area < 0.0 ? -1.0 : 1.0, centre, reach))
-                raise(&first[y * cells->side + x], amount);
+            depth = o->everywhere ? 0.0 : depth_in(o, area < 0.0 ? -1.0 : 1.0, centre);
+            if (touched && depth >= -0.5 - TOUCH)
+                raise(&touched->layers[first + y * cells->side + x], amount);
+            if (centred && depth >= -TOUCH)
+                raise(&centred->layers[first + y * cells->side + x], amount);
         }
 }
 
@@ -247,47 +267,63 @@ void gni_cells_add_box(const gni_cells *cells, gni_grid *grid, const gni_hull *b
         all.at[3][0] = all.at[0][0];
         all.at[3][1] = all.at[2][1];
         if (all.everywhere || (all.at[0][0] <= all.at[2][0] && all.at[0][1] <= all.at[2][1]))
-            add_outline(cells, grid, face, &all, 0.5, amount);
+            add_outline(cells, face, &all, amount, grid, NULL);
     }
 }
 
-static void add_polygon(const gni_cells *cells, gni_grid *grid, double points[][3], int count, double reach,
-                        uint32_t amount)
+static void add_polygon(const gni_cells *cells, double points[][3], int count, uint32_t amount, gni_grid *touched,
+                        gni_grid *centred)
 {
     for (int face = 0; face < cells->face_count; face++) {
         outline o;
 
         project(&o, cells, face, points, count);
-        add_outline(cells, grid, face, &o, reach, amount);
+        add_outline(cells, face, &o, amount, touched, centred);
     }
 }
 
-void gni_cells_add_triangles(const gni_cells *cells, gni_grid *grid, const gn_mesh *mesh, const double model_view[16],
-                             const int8_t *casting, const uint32_t *list, uint32_t count)
+/* The weights of the silhouette edges that a triangle is the first to use, to the cells that they touch. */
+static void add_silhouette(const gni_cells *cells, gni_grid *grid, const gn_mesh *mesh, const int8_t *casting,
+                           uint32_t triangle, double v[3][3])
 {
+    for (uint32_t k = 0; k < 3; k++) {
+        const uint32_t corner = 3 * triangle + k, edge = mesh->edge_of[corner];
+        int32_t weight;
+        double ends[2][3];
+
+        if (gni_first_caster(mesh, edge, casting) != corner)
+            continue;
+        weight = gni_edge_weight(mesh, edge, casting);
+        if (weight == 0)
+            continue;
+        memcpy(ends[0], v[k], sizeof ends[0]);
+        memcpy(ends[1], v[(k + 1) % 3], sizeof ends[1]);
+        add_polygon(cells, ends, 2, (uint32_t)(weight < 0 ? -weight : weight), grid, NULL);
+    }
+}
+
+uint32_t gni_measure_triangles(const gni_cells *cells, gni_grid *grid, gni_grid *touches, const gn_mesh *mesh,
+                               const double model_view[16], const int8_t *casting, const uint32_t *list, uint32_t count)
+{
+    const int size = cells->face_count * cells->side * cells->side;
+    uint32_t most = 0;
+
+    memset(grid, 0, sizeof *grid);
+    memset(touches, 0, sizeof *touches);
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t *c = mesh->triangles + 3 * (size_t)list[i];
         double v[3][3];
 
         for (int k = 0; k < 3; k++)
             gni_vertex(v[k], mesh, c[k], model_view);
-        add_polygon(cells, grid, v, 3, count <= FEW ? 0.5 : 0.0, 1);
-        for (uint32_t k = 0; k < 3 && count > FEW; k++) {
-            const uint32_t corner = 3 * list[i] + k, edge = mesh->edge_of[corner];
-            int32_t weight;
-
-            if (gni_first_caster(mesh, edge, casting) != corner)
-                continue;
-            weight = gni_edge_weight(mesh, edge, casting);
-            if (weight != 0) {
-                double ends[2][3];
-
-                memcpy(ends[0], v[k], sizeof ends[0]);
-                memcpy(ends[1], v[(k + 1) % 3], sizeof ends[1]);
-                add_polygon(cells, grid, ends, 2, 0.5, (uint32_t)(weight < 0 ? -weight : weight));
-            }
-        }
+        add_polygon(cells, v, 3, 1, touches, grid);
+        add_silhouette(cells, grid, mesh, casting, list[i], v);
     }
+    for (int i = 0; i < size; i++) {
+        grid->layers[i] = grid->layers[i] < touches->layers[i] ? grid->layers[i] : touches->layers[i];
+        most = grid->layers[i] > most ? grid->layers[i] : most;
+    }
+    return most;
 }
 
 uint32_t gni_most_layers(const gni_cells *cells, const gni_grid *a, const gni_grid *b)

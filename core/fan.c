@@ -50,7 +50,7 @@ uint32_t gni_find_apex(const gn_mesh *mesh, const int8_t *casting, const double 
         const int32_t weight = gni_edge_weight(mesh, e, casting);
         const uint32_t use = mesh->uses[mesh->edge_uses[e]], corner = use & GNI_USE_CORNER;
         const uint32_t a = mesh->triangles[corner];
-        const uint32_t b = mesh->triangles[corner % 3 == 2 ? corner - 2 : corner + 1];
+        const uint32_t b = mesh->triangles[gni_next_corner(corner)];
         double from[3], to[3], normal[3], side;
 
         if (weight == 0 || a == apex || b == apex)

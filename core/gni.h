@@ -76,6 +76,12 @@ static inline uint32_t gni_first_caster(const gn_mesh *mesh, uint32_t edge, cons
     return GNI_NONE;
 }
 
+/* The corner of the same triangle that comes next. */
+static inline uint32_t gni_next_corner(uint32_t corner)
+{
+    return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
+
 /* How many times, and in which sign, the casting chain runs along an edge from its lower to its higher vertex. */
 static inline int32_t gni_edge_weight(const gn_mesh *mesh, uint32_t edge, const int8_t *casting)
 {
@@ -187,6 +193,8 @@ void gni_cross(double out[3], const double a[3], const double b[3]);
 double gni_dot(const double a[3], const double b[3]);
 /* The box around a mesh, in view space. */
 void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16]);
+/* A box along view space's axes. */
+void gni_hull_around(gni_hull *out, const double low[3], const double high[3]);
 /* The box and all that is behind it as the light sees it. */
 void gni_volume_hull(gni_hull *out, const gni_hull *box, const double light[4]);
 /* Whether the axis separates two bodies, of which at most one is without end. */

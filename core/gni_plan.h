@@ -9,6 +9,7 @@ enum { GNI_IN_CAST = 1, GNI_IN_LIT = 2 }; /* what an object is to a light */
 /* cells.c: cells of light space, and how many layers there are in each at most. */
 #define GNI_PLANE_SIDE 58
 #define GNI_CUBE_SIDE  24
+#define GNI_ZOOM_SIDE  16
 #define GNI_CELLS      (6 * GNI_CUBE_SIDE * GNI_CUBE_SIDE) /* not less than the square of a plane's side */
 
 typedef struct gni_cells {
@@ -20,13 +21,19 @@ typedef struct gni_grid {
     uint16_t layers[GNI_CELLS];
 } gni_grid;
 
+#define GNI_MOST_ZOOMS 32 /* each costs as much as a look at all cells */
+
 /* Around the boxes that is_in says may cast, as seen from the light. */
 void gni_fit_cells(gni_cells *cells, const gni_hull *boxes, const uint8_t *is_in, uint32_t count,
                    const double light[4]);
+/* Cells that part one of `from`. */
+void gni_zoom_cells(gni_cells *out, const gni_cells *from, int cell);
 void gni_cells_add_box(const gni_cells *cells, gni_grid *grid, const gni_hull *box, uint32_t amount);
-/* The triangles of list[count]; casting holds 0 for all others. */
-void gni_cells_add_triangles(const gni_cells *cells, gni_grid *grid, const gn_mesh *mesh, const double model_view[16],
-                             const int8_t *casting, const uint32_t *list, uint32_t count);
+/* The layers of the triangles of list[count]; casting holds 0 for all others. `touches` is scratch. Returns the most of a
+ * cell. */
+uint32_t gni_measure_triangles(const gni_cells *cells, gni_grid *grid, gni_grid *touches, const gn_mesh *mesh,
+                               const double model_view[16], const int8_t *casting, const uint32_t *list,
+                               uint32_t count);
 /* The most that a cell has in both together; b may be NULL. */
 uint32_t gni_most_layers(const gni_cells *cells, const gni_grid *a, const gni_grid *b);
 void gni_add_grid(const gni_cells *cells, gni_grid *to, const gni_grid *grid);
@@ -34,7 +41,7 @@ void gni_add_grid(const gni_cells *cells, gni_grid *to, const gni_grid *grid);
 /* What only scenes need that may nest more than the bits hold. */
 typedef struct gni_layers {
     gni_cells cells;
-    gni_grid batch, group, chain; /* counted since the last fold; the group at hand; a chain of it */
+    gni_grid batch, piece, scratch, zoomed; /* what is counted since the last fold; the piece at hand */
 } gni_layers;
 
 /* Where the stencil may differ from the reference: x0, y0, x1, y1; nowhere where x0 is not less than x1. */
@@ -56,6 +63,7 @@ typedef struct gni_draft {
     gn_plan_caster *casters;
     gni_hull *boxes;         /* [object_count] of objects, in view space */
     uint8_t *is_in;          /* [object_count] of the light at hand: GNI_IN_* */
+    gni_hull all_lit;        /* a box around all that receives and is lit by it */
     int8_t *casting, *group; /* of the caster at hand; group: those of one volume of it */
     uint8_t *end_of;
     gni_region *region; /* NULL: volumes need not end */

@@ -182,7 +182,8 @@ typedef struct gn_light {
 
 /* A light with extent as `count` lights within `radius` of it, each with as much of its color, at jittered places that are
  * the same in every frame (McGuire 2003, section 4). radius: of a directional light, of its disc at distance 1 (the sun's is
- * 0.0047). Bounds but the color, and the list of the exempt, are copied. out: [count]. Returns GN_OK, GN_E_ARG. */
+ * 0.0047); one light alone stays where it is. Each has the bounds of the whole; the list of the exempt stays borrowed. out:
+ * [count]. Returns GN_OK, GN_E_ARG. */
 gn_result gn_light_soften(gn_context *context, const gn_light *light, double radius, uint32_t count, gn_light *out);
 
 enum {
@@ -330,7 +331,7 @@ typedef enum gn_skip {
     GN_SKIP_NOT,          /* it is drawn */
     GN_SKIP_NO_CASTER,    /* an object: it has not the flag GN_CASTS */
     GN_SKIP_EXEMPT,       /* an object: the light's list exempts it */
-    GN_SKIP_NO_TRIANGLE,  /* an object: none of its triangles casts in this light */
+    GN_SKIP_NO_TRIANGLE,  /* an object: none of its triangles casts in this light, or none on what is seen */
     GN_SKIP_OUT_OF_REACH, /* an object: it lies beyond the light's reach, or outside its cone or box */
     GN_SKIP_OUT_OF_VIEW,  /* an object: its volume misses what is seen. A light: so does all that it reaches */
     GN_SKIP_NO_RECEIVER, /* an object: its volume misses all that receives, is seen and reached. A light: there is nothing
@@ -346,14 +347,16 @@ typedef struct gn_plan_light {
     char reason[256]; /* why this method, and this way of it: a sentence */
     gn_skip skip;     /* not GN_SKIP_NOT: there is no step for it */
     gn_stencil_layout stencil;
-    double reach;             /* what is farther is not lit; INFINITY: no bound */
-    uint32_t scissor[4];      /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound */
+    double reach; /* what is farther is not lit, and a little more for rounding; INFINITY: no bound */
+    uint32_t
+        scissor[4]; /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound; all 0: the
+                                 light is skipped */
     double depth_bounds[2];   /* window depths of what it lights; 0, 1: no bound */
     double possible_error;    /* the most that skipping it takes from a pixel; 0 unless it is GN_SKIP_UNIMPORTANT */
     uint32_t casters;         /* with a volume */
     uint32_t cases[3];        /* of them: McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
     uint32_t skipped_casters; /* that might have cast, and were skipped */
-    uint32_t layers;          /* no point is blocked by more casting triangles than this, as far as was looked */
+    uint32_t layers;          /* no point is blocked by more casting triangles of one batch than this */
     uint32_t batches;         /* in which volumes are counted, folded into the flag between */
 } gn_plan_light;
 
@@ -396,8 +399,8 @@ typedef struct gn_plan {
     gn_target target;
     int blend_once;     /* as in the scene */
     double clear_depth; /* 1, or the depth of zfar */
-    /* View distances that depth 0 and 1 stand for. [0] is znear, or a little less, so that floats tell it from w (DESIGN.md,
-     * decision 3); [1] is INFINITY for most perspective cameras. */
+    /* View distances that depth 0 and 1 stand for. [0] is znear, or up to an eighth less, so that floats tell it from w; [1] is
+     * INFINITY for most perspective cameras. */
     double depth_range[2];
     const gn_step *steps;
     uint32_t step_count;
@@ -424,7 +427,9 @@ size_t gn_plan_bound(const gn_scene *scene);
 
 /* Makes the plan of a frame in the given memory (aligned for double). Pure: equal scenes give equal bytes. Allocates
  * nothing. Returns GN_OK; GN_E_ARG for what is not finite or out of range; GN_E_SPACE; GN_E_DEVICE when the method
- * needs what the target lacks, or when a volume would be clipped at the far plane. Cost: O(triangles of casters) for each light. */
+ * needs what the target lacks, or when a volume would be clipped at the far plane. Cost, for each light: O(triangles of
+ * casters); boxes of casters against boxes of receivers until one is touched; and where more layers are possible than the stencil
+ * counts, a few times as much again for each batch. */
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan);
 
 /* The method of one of the plan's lights with its suffix: "zfail", "zfail/one-sided". Static; "" for a light that is none of

@@ -40,6 +40,17 @@ void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_vi
             out->edges[i][k] = out->points[1 << i][k] - out->points[0][k];
 }
 
+void gni_hull_around(gni_hull *out, const double low[3], const double high[3])
+{
+    memset(out, 0, sizeof *out);
+    out->point_count = 8;
+    for (int c = 0; c < 8; c++)
+        for (int axis = 0; axis < 3; axis++)
+            out->points[c][axis] = c >> axis & 1 ? high[axis] : low[axis];
+    for (int axis = 0; axis < 3; axis++)
+        out->edges[axis][axis] = 1.0;
+}
+
 void gni_volume_hull(gni_hull *out, const gni_hull *box, const double light[4])
 {
     *out = *box;
@@ -52,17 +63,21 @@ void gni_volume_hull(gni_hull *out, const gni_hull *box, const double light[4])
             out->directions[0][k] = -light[k];
 }
 
-/* What the body's points reach along an axis. */
-static void extent(double range[2], const double axis[3], const gni_hull *h)
+/* What the body's points reach along an axis; returns the greatest sum of coordinates that went into it. */
+static double extent(double range[2], const double axis[3], const gni_hull *h)
 {
+    double most = 0.0;
+
     range[0] = INFINITY;
     range[1] = -INFINITY;
     for (int i = 0; i < h->point_count; i++) {
-        const double at = gni_dot(axis, h->points[i]);
+        const double *p = h->points[i], at = gni_dot(axis, p);
 
         range[0] = fmin(range[0], at);
         range[1] = fmax(range[1], at);
+        most = fmax(most, fabs(axis[0] * p[0]) + fabs(axis[1] * p[1]) + fabs(axis[2] * p[2]));
     }
+    return most;
 }
 
 /* And its directions. */
@@ -86,9 +101,7 @@ int gni_separates(const double axis[3], const gni_hull *a, const gni_hull *b)
 
     if (!(length > 0.0))
         return 0;
-    extent(of_a, axis, a);
-    extent(of_b, axis, b);
-    margin = GNI_MARGIN * (fmax(fabs(of_a[0]), fabs(of_a[1])) + fmax(fabs(of_b[0]), fabs(of_b[1])));
+    margin = GNI_MARGIN * (extent(of_a, axis, a) + extent(of_b, axis, b));
     extend(of_a, axis, length, a);
     extend(of_b, axis, length, b);
     return of_a[0] > of_b[1] + margin || of_b[0] > of_a[1] + margin;

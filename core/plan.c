@@ -41,7 +41,7 @@ static int lay_out(gni_draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
     const uint32_t limit = batch_limit(s);
-    size_t records = 0, indices = 0, triangles = 0, all = 0;
+    size_t records = 0, indices = 0, triangles = 0, all = 0, batches = 1;
     const size_t most =
         UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
 
@@ -58,13 +58,16 @@ static int lay_out(gni_draft *d, arena *a)
             mesh->info.triangle_count > (most - indices) / GNI_MOST_INDICES)
             return 0;
         records += mesh->info.chunk_count * pieces;
+        batches += pieces;
         indices += (size_t)mesh->info.triangle_count * GNI_MOST_INDICES;
         all += mesh->info.triangle_count;
         triangles = triangles < mesh->info.triangle_count ? mesh->info.triangle_count : triangles;
     }
     d->plan = cut(a, 1, sizeof *d->plan);
-    /* a light zeroes twice and draws twice; two batches in a row have more triangles than the limit together */
-    d->steps = cut(a, 3 + (size_t)s->light_count * (6 + 2 * (2 * all / limit + 1)), sizeof *d->steps);
+    /* a light zeroes twice and draws twice; each of its batches holds a piece of a caster at least, and is folded */
+    if (batches > (SIZE_MAX / 2 - 8) / (s->light_count ? s->light_count : 1))
+        return 0;
+    d->steps = cut(a, 3 + (size_t)s->light_count * (4 + 2 * batches), sizeof *d->steps);
     d->lights = cut(a, s->light_count, sizeof *d->lights);
     d->objects = cut(a, s->object_count, sizeof *d->objects);
     d->casters = cut(a, (size_t)s->object_count * s->light_count, sizeof *d->casters);
@@ -136,11 +139,12 @@ static void find_depth_limit(gni_draft *d)
     const double steps = ldexp(0.25, s->target.depth_bits);
     double farthest = -INFINITY;
 
-    for (uint32_t i = 0; i < s->object_count; i++)
-        for (int corner = 0; corner < 8 && gni_may_be_seen(&d->seen, &d->boxes[i]); corner++) {
-            if (s->objects[i].flags & GN_RECEIVES)
-                farthest = fmax(farthest, -d->boxes[i].points[corner][2]);
-        }
+    for (uint32_t i = 0; i < s->object_count; i++) {
+        if (!(s->objects[i].flags & GN_RECEIVES) || !gni_may_be_seen(&d->seen, &d->boxes[i]))
+            continue;
+        for (int corner = 0; corner < 8; corner++)
+            farthest = fmax(farthest, -d->boxes[i].points[corner][2]);
+    }
     d->plan->deepest_receiver = c->zfar != 0.0 ? fmin(farthest, c->zfar) : farthest;
     if (c->orthographic)
         d->plan->depth_limit =
@@ -208,8 +212,8 @@ static void start_plan(gni_draft *d)
 }
 
 /* A vertex shader's floats compute clip w, and z = w - 2 n beside it. What rounding does to the two cancels where 2 n is a
- * multiple of the last bit of the greatest w: so n is brought a little nearer to the eye, by less than n^-1 2^-24 of that w
- * and an eighth at most. Where that is not enough depths go wrong, in proportion: a warning. */
+ * multiple of the last bit of the greatest w: so n is brought nearer to the eye by less than that bit, and by an eighth of
+ * itself at most. Where that is not enough depths go wrong, in proportion: a warning. */
 static void round_near(gni_draft *d, gn_scene *own)
 {
     gn_camera *c = &own->camera;

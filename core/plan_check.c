@@ -16,7 +16,7 @@ static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned l
 {
     const int has_cone = l->kind == GN_LIGHT_SPOT && l->cone != 0.0;
 
-    if (!(l->range >= 0.0 && isfinite(l->range)))
+    if (!(l->range >= 0.0 && l->range <= GNI_MOST))
         return gn_fail(context, GN_E_ARG, "plan: light %lu has a range of %g", i, l->range);
     if (!isfinite(l->cone) || (has_cone && !(l->cone > 0.0 && l->cone < 1.5707963267948966)))
         return gn_fail(context, GN_E_ARG, "plan: light %lu has a cone of %g radians about its axis", i, l->cone);
@@ -24,9 +24,9 @@ static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned l
         return gn_fail(context, GN_E_ARG, "plan: light %lu has a cone along %g %g %g", i, l->towards[0], l->towards[1],
                        l->towards[2]);
     for (int c = 0; c < 3; c++) {
-        if (!(l->color[c] >= 0.0 && isfinite(l->color[c])))
+        if (!(l->color[c] >= 0.0 && l->color[c] <= GNI_MOST))
             return gn_fail(context, GN_E_ARG, "plan: light %lu has a color of %g", i, l->color[c]);
-        if (!(l->attenuation[c] >= 0.0 && isfinite(l->attenuation[c])))
+        if (!(l->attenuation[c] >= 0.0 && l->attenuation[c] <= GNI_MOST))
             return gn_fail(context, GN_E_ARG, "plan: light %lu has an attenuation of %g", i, l->attenuation[c]);
         if (!in_range(l->box_min + c, 1) || !in_range(l->box_max + c, 1) || l->box_min[c] > l->box_max[c])
             return gn_fail(context, GN_E_ARG, "plan: light %lu has a box from %g to %g", i, l->box_min[c],

@@ -64,8 +64,8 @@ static void put_caster(gni_text *w, const gn_plan *plan, uint32_t light, uint32_
 {
     const gn_plan_caster *c = &plan->casters[(size_t)light * plan->object_count + object];
 
-    gni_put(w, "%s{\"skip\": \"%s\", \"case\": %d}", object ? ", " : "", gni_skip_name((gn_skip)c->skip),
-            c->mcguire_case);
+    gni_put(w, "%s{\"skip\": \"%s\", \"case\": %d, \"lit\": %s}", object ? ", " : "", gni_skip_name((gn_skip)c->skip),
+            c->mcguire_case, c->is_lit ? "true" : "false");
 }
 
 static void put_light(gni_text *w, const gn_plan *plan, uint32_t light)
@@ -135,6 +135,10 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
     put_number(&w, plan->depth_range[1]);
     gni_put(&w, "], \"depth_limit\": ");
     put_number(&w, plan->depth_limit);
+    gni_put(&w, ", \"deepest_receiver\": ");
+    put_number(&w, plan->deepest_receiver);
+    gni_put(&w, ", \"farthest_vertex\": ");
+    put_number(&w, plan->farthest_vertex);
     gni_put(&w, ", \"indices\": %lu, \"endless_casters\": %lu,\n \"lights\": [", (unsigned long)plan->index_count,
             (unsigned long)plan->endless_casters);
     for (uint32_t i = 0; i < plan->light_count; i++)

@@ -118,6 +118,8 @@ static void clean_stencil(gni_draft *d)
     uint32_t *dirty = d->stain.at, at[4];
 
     corners_of(about->scissor, at);
+    if (d->light == 0) /* the clear is to its reference */
+        d->stain.reference = about->stencil.reference;
     if (about->stencil.reference != d->stain.reference) { /* then all of it does */
         dirty[0] = dirty[1] = 0;
         dirty[2] = d->scene->target.width;
@@ -182,7 +184,7 @@ static gn_result add_volumes(gni_draft *d)
 static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
 {
     const gn_scene *s = d->scene;
-    double most = 0.0;
+    double most = 0.0, low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
 
     *any_receiver = !d->receivers_are_known || d->lights[d->light].method != GN_METHOD_STENCIL;
     *any_other = 0;
@@ -200,7 +202,14 @@ static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
         *any_receiver |= (object->flags & GN_RECEIVES) != 0;
         *any_other |= !(object->flags & GN_RECEIVES);
         most = fmax(most, gni_most_light(&d->bounds, &s->lights[d->light], &d->boxes[i]));
+        for (int corner = 0; corner < 8 && object->flags & GN_RECEIVES; corner++)
+            for (int axis = 0; axis < 3; axis++) {
+                low[axis] = fmin(low[axis], d->boxes[i].points[corner][axis]);
+                high[axis] = fmax(high[axis], d->boxes[i].points[corner][axis]);
+            }
     }
+    if (low[0] <= high[0])
+        gni_hull_around(&d->all_lit, low, high);
     return *any_receiver && !d->receivers_are_known ? INFINITY : most;
 }
 

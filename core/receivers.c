@@ -16,9 +16,10 @@ static int plane_in_view(const gn_object *object, const gn_camera *camera, doubl
 
     if (!mesh->info.planar)
         return 0;
-    while (mesh->planes[4 * (size_t)t] == 0.0 && mesh->planes[4 * (size_t)t + 1] == 0.0 &&
-           mesh->planes[4 * (size_t)t + 2] == 0.0)
-        t++; /* one has an area, since the mesh is planar */
+    for (uint32_t i = 0; i < mesh->info.triangle_count; i++) /* the largest: a sliver's plane is all rounding */
+        if (gni_dot(mesh->planes + 4 * (size_t)i, mesh->planes + 4 * (size_t)i) >
+            gni_dot(mesh->planes + 4 * (size_t)t, mesh->planes + 4 * (size_t)t))
+            t = i;
     gni_model_view(model_view, camera, object->model, mesh->info.centre);
     for (int k = 0; k < 3; k++)
         gni_vertex(v[k], mesh, mesh->triangles[3 * (size_t)t + (size_t)k], model_view);
@@ -63,10 +64,10 @@ static int border_is_unseen(const gni_draft *d, uint32_t object)
         const uint32_t *use = mesh->uses + mesh->edge_uses[e], corner = use[0] & GNI_USE_CORNER;
         gni_hull edge = {{{0}}, 2, {{0}}, 0, {{0}}};
 
-        if (uses == 2 && (use[0] ^ use[1]) & GNI_USE_DOWN)
-            continue; /* inside */
+        if (mesh->info.planar == 2 && uses == 2 && (use[0] ^ use[1]) & GNI_USE_DOWN)
+            continue; /* inside: the two lie beside each other */
         for (uint32_t i = 0; i < 2; i++) {
-            const uint32_t end = i == 0 ? corner : corner % 3 == 2 ? corner - 2 : corner + 1;
+            const uint32_t end = i == 0 ? corner : gni_next_corner(corner);
 
             gni_vertex(edge.points[i], mesh, mesh->triangles[end], model_view);
         }
@@ -90,17 +91,19 @@ static int lies_before(const gni_hull *box, const double plane[4])
 
 int gni_shadows_anything(const gni_draft *d, uint32_t object, const gni_hull *volume, const double *plane)
 {
-    const int is_flat = plane && border_is_unseen(d, object);
+    const double *light = d->bounds.light;
+    int is_flat;
 
     if (!d->receivers_are_known)
         return 1;
-    for (uint32_t i = 0; i < d->scene->object_count; i++) {
-        if (!(d->is_in[i] & GNI_IN_LIT) || !(d->scene->objects[i].flags & GN_RECEIVES))
-            continue;
-        if (is_flat && (i == object || lies_before(&d->boxes[i], plane)))
-            continue;
-        if (i == object || !gni_volume_misses(volume, d->bounds.light, &d->boxes[i]))
+    is_flat = plane && border_is_unseen(d, object);
+    if (!is_flat && d->is_in[object] & GNI_IN_LIT && d->scene->objects[object].flags & GN_RECEIVES)
+        return 1; /* itself */
+    if (gni_volume_misses(volume, light, &d->all_lit))
+        return 0;
+    for (uint32_t i = 0; i < d->scene->object_count; i++)
+        if (i != object && d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
+            !(is_flat && lies_before(&d->boxes[i], plane)) && !gni_volume_misses(volume, light, &d->boxes[i]))
             return 1;
-    }
     return 0;
 }

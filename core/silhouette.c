@@ -18,7 +18,7 @@ gn_result gn_silhouette(const gn_mesh *mesh, const int8_t *casting, gn_edge *edg
         const int32_t weight = gni_edge_weight(mesh, e, casting);
         const uint32_t use = mesh->uses[mesh->edge_uses[e]], corner = use & GNI_USE_CORNER;
         const uint32_t from = mesh->triangles[corner];
-        const uint32_t to = mesh->triangles[corner % 3 == 2 ? corner - 2 : corner + 1];
+        const uint32_t to = mesh->triangles[gni_next_corner(corner)];
         const int along = (weight > 0) == !(use & GNI_USE_DOWN); /* the chain runs as the first use does */
 
         if (weight != 0 && needed++ < capacity)

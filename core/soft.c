@@ -22,8 +22,8 @@ static double jitter(uint32_t number)
 
 gn_result gn_light_soften(gn_context *context, const gn_light *light, double radius, uint32_t count, gn_light *out)
 {
-    const double length = light ? sqrt(gni_dot(light->towards, light->towards)) : 0.0;
     const int is_sun = light && light->kind == GN_LIGHT_DIRECTIONAL;
+    double towards[3] = {0, 0, 0}, length;
 
     if (!context || !light || !out)
         return gn_fail(context, GN_E_ARG, "gn_light_soften: NULL argument");
@@ -31,6 +31,8 @@ gn_result gn_light_soften(gn_context *context, const gn_light *light, double rad
         return gn_fail(context, GN_E_ARG, "gn_light_soften: 0 lights in place of one");
     if (!(radius >= 0.0 && isfinite(radius)))
         return gn_fail(context, GN_E_ARG, "gn_light_soften: a radius of %g", radius);
+    gni_towards(towards, light);
+    length = sqrt(gni_dot(towards, towards));
     if (is_sun && !(length > 0.0 && isfinite(length)))
         return gn_fail(context, GN_E_ARG, "gn_light_soften: a light from no direction: %g %g %g", light->towards[0],
                        light->towards[1], light->towards[2]);
@@ -52,15 +54,15 @@ gn_result gn_light_soften(gn_context *context, const gn_light *light, double rad
             int least = 0;
 
             for (int k = 1; k < 3; k++)
-                least = fabs(light->towards[k]) < fabs(light->towards[least]) ? k : least;
+                least = fabs(towards[k]) < fabs(towards[least]) ? k : least;
             across[least] = 1.0;
-            gni_cross(u, light->towards, across);
+            gni_cross(u, towards, across);
             size = sqrt(gni_dot(u, u));
             for (int k = 0; k < 3; k++)
                 u[k] /= size;
-            gni_cross(v, light->towards, u);
-            for (int k = 0; k < 3; k++)
-                out[i].towards[k] += at[0] * u[k] * length + at[2] * v[k];
+            gni_cross(v, towards, u);
+            for (int k = 0; k < 3 && away > 0.0; k++)
+                out[i].towards[k] = towards[k] + at[0] * u[k] * length + at[2] * v[k];
         }
     }
     return GN_OK;

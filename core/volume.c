@@ -26,7 +26,7 @@ static int32_t silhouette_edge(const gn_mesh *mesh, uint32_t edge, const int8_t 
     const int32_t weight = gni_edge_weight(mesh, edge, casting);
     const uint32_t use = mesh->uses[mesh->edge_uses[edge]], corner = use & GNI_USE_CORNER;
     const uint32_t from = 2u * mesh->corners[corner];
-    const uint32_t to = 2u * mesh->corners[corner % 3 == 2 ? corner - 2 : corner + 1];
+    const uint32_t to = 2u * mesh->corners[gni_next_corner(corner)];
     const int along = (weight > 0) == !(use & GNI_USE_DOWN);
 
     *a = along ? from : to;

@@ -64,6 +64,35 @@ static void make_boxes(test_mesh *m, uint32_t count)
     }
 }
 
+/* Cones of many turns, their triangles dealt out to four pieces so that each meets the others along many edges and takes many of
+ * their triangles; and small chains between. */
+static void make_cones(test_mesh *m, uint32_t count)
+{
+    enum { BLADES = 266 };
+
+    m->vertex_count = m->triangle_count = 0;
+    for (uint32_t n = 0; n < count; n++) {
+        const double y = 0.1 * n - 0.05 * count;
+        const uint32_t apex = test_add_vertex(m, 0, (float)y, 0);
+        uint32_t first = 0;
+
+        for (uint32_t i = 0; i <= BLADES; i++) {
+            const uint32_t v = test_add_vertex(m, (float)cos(3.0 * i), (float)(y + 1e-4 * i), (float)-sin(3.0 * i));
+
+            first = i == 0 ? v : first;
+        }
+        for (uint32_t hand = 0; hand < 4; hand++)
+            for (uint32_t i = hand; i < BLADES; i += 4)
+                test_add_triangle(m, apex, first + i, first + i + 1);
+        for (uint32_t i = 0; i < 8; i++) {
+            const float h = (float)(y + 0.05 + 1e-3 * i);
+            const uint32_t a = test_add_vertex(m, -1, h, 1), b = test_add_vertex(m, 1, h, 1);
+
+            test_add_triangle(m, a, b, test_add_vertex(m, 0, h, -1));
+        }
+    }
+}
+
 typedef struct ray {
     double from[3], along[3];
 } ray;
@@ -194,6 +223,10 @@ static uint32_t check(const gn_mesh *mesh, const gn_light *light, uint32_t hidde
     size = gn_plan_bound(&scene);
     memory = malloc(size);
     assert_int_equal(gn_plan_make(test_context, &scene, memory, size, &plan), GN_OK);
+    /* its arrays stand in this order in the memory: none runs into the next */
+    assert_true(plan->steps + plan->step_count <= (const gn_step *)(const void *)plan->lights);
+    assert_true((const char *)(plan->records + plan->record_count) <= (const char *)plan->indices);
+    assert_true((const char *)(plan->indices + plan->index_count) <= (const char *)memory + size);
     gn_object_casting(&object, light, casting);
     for (uint32_t r = 0; r < plan->record_count; r++)
         check_closed(plan, &plan->records[r], light->kind == GN_LIGHT_DIRECTIONAL);
@@ -252,14 +285,18 @@ static void no_batch_holds_more_than_it_says(void **state)
         gn_mesh *mesh;
         gn_light light;
 
-        if (trial % 3 == 0)
+        if (trial % 8 == 7)
+            make_cones(&m, 4 + test_random(&rng) % 30);
+        else if (trial % 3 == 0)
             make_pile(&m, 100 + test_random(&rng) % 900);
         else if (trial % 3 == 1)
             make_helix(&m, 100 + test_random(&rng) % 250, 12);
         else
             make_boxes(&m, 100 + test_random(&rng) % 300);
         mesh = make_mesh(&m);
-        make_light(&light, trial / 3 % 3);
+        make_light(&light, trial % 8 == 7 ? 2 : trial / 3 % 3);
+        if (trial % 8 == 7)
+            light.towards[0] = light.towards[2] = 0.0;
         several += check(mesh, &light, trial % 4 == 3 ? 1u << GN_CAN_STENCIL_WRAP : 0) > 1;
         runs++;
         gn_mesh_destroy(mesh);
