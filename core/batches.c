@@ -3,9 +3,8 @@
  * A count of n bits that wraps tells 2^n - 1 volumes from none; 256 around a point look like none. Whether so many can lie
  * around one is asked in steps, each dearer than the one before: how many triangles cast at all; half the number of
  * silhouette edges, since as the light sees it a line over a point with L layers crosses L of them on its way in and L on its
- * way out; boxes in cells of light space; triangles and silhouettes in those; and at last in parts of
- * cells. Most scenes end at
- * the first or second.
+ * way out; boxes in cells of light space; triangles and silhouettes in those; and at last in parts of cells. Most scenes end
+ * at the first or second.
  *
  * Where they do not, one bit becomes a flag and the rest counts in batches; between two batches what is counted is folded
  * into the flag (DESIGN.md, decision 10). A caster that alone is too much is cut into chains: triangles that hang together
