@@ -65,7 +65,7 @@ demo: $(B)/gnomon $(SCENES) ## draw a sundial in a courtyard, headless, into bui
 	@sed -n 's/^\t"\(driver\|renderer\|platform\)":\t"\(.*\)",$$/  \1: \2/p' build/demo.json
 	@echo "build/demo.png: a sundial in a courtyard, three lights, exact stencil shadows"
 
-test: $(TESTS) $(B)/tests/truth/truth_table $(B)/gnomon $(SCENES) headers layers check-build ## run every test of this VARIANT
+test: $(TESTS) $(B)/tests/truth/truth_table $(B)/tests/bench/bench_stencil $(B)/gnomon $(SCENES) headers layers check-build ## run every test of this VARIANT
 	@sh tests/run.sh $(B) $(TESTS)
 
 truth: $(B)/gnomon $(B)/tests/truth/truth_table $(SCENES) ## masks of all test scenes against the ray-traced truth

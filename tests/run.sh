@@ -46,6 +46,14 @@ table "all scenes" truth ${TRUTH_ARGS:-}
 table "the extremes" extremes --extremes --size 160x120
 table "the extremes in 16 bits of depth" extremes16 --extremes --size 160x120 --depth 16
 table "small scenes in 16 bits of depth" truth16 --size 160x120 --depth 16 --drivers llvmpipe
+# shellcheck disable=SC2046 # scene by scene
+if without_leaks "$build/tests/bench/bench_stencil" $(awk '{print $1}' build/scenes/scenes.txt) > "$build/stencil.csv" 2> "$build/stencil.err"; then
+    echo "ok stencil costs no more than z-fail"
+else
+    echo "not ok stencil costs no more than z-fail"
+    cat "$build/stencil.err"
+fi > "$build/one.log"
+count tests/bench/bench_stencil 0 "$build/one.log"
 rm -f "$build/one.log"
 echo "$passed passed, $failed failed"
 [ "$failed" = 0 ]
