@@ -223,7 +223,7 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
         int any = 0;
 
         for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
-            d->group[t] = d->end_of[t] == p ? d->casting[t] : 0;
+            d->group[t] = d->casting[t] && d->end_of[t] == p ? d->casting[t] : 0;
             any |= d->group[t];
         }
         if (any)

@@ -9,7 +9,7 @@ check() {
         { cat "$build/valgrind.log"; exit 1; }
 }
 set -e
-for test in "$build"/tests/core/test_* "$build"/tests/gltf/test_gltf "$build"/tests/gltf/test_gltf_scene "$build"/tests/gles/test_walk; do
+for test in "$build"/tests/core/test_* "$build"/tests/gltf/test_gltf "$build"/tests/gltf/test_gltf_scene "$build"/tests/gles/test_walk "$build"/tests/extremes/test_numbers; do
     case $test in *.d|*.o|*test_laws) continue ;; esac
     check "$test"
 done
