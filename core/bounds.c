@@ -203,22 +203,13 @@ static void add_box(gni_bounds *b, const gn_light *light, const gni_hull *box, c
 static void cone_hull(gni_hull *out, const gn_light *light, const double at[4], double reach, const double view[16])
 {
     const double wide = tan(light->cone) / cos(3.14159265358979323846 / SIDES) * (1.0 + LOOSE);
-    double axis[3], across[3] = {0, 0, 0}, u[3], v[3], size;
-    int least = 0;
+    double axis[3], axes[3][3];
 
     gni_towards(axis, light);
     gn_mat4_transform(axis, view, axis, 0.0);
-    size = sqrt(gni_dot(axis, axis));
     for (int i = 0; i < 3; i++)
-        axis[i] /= -size;
-    for (int i = 1; i < 3; i++)
-        least = fabs(axis[i]) < fabs(axis[least]) ? i : least;
-    across[least] = 1.0;
-    gni_cross(u, axis, across);
-    size = sqrt(gni_dot(u, u));
-    for (int i = 0; i < 3; i++)
-        u[i] /= size;
-    gni_cross(v, axis, u);
+        axis[i] = -axis[i];
+    gni_make_axes(axes, axis);
     memset(out, 0, sizeof *out);
     memcpy(out->points[0], at, sizeof out->points[0]);
     out->point_count = reach < INFINITY ? 1 + SIDES : 1;
@@ -227,7 +218,7 @@ static void cone_hull(gni_hull *out, const gn_light *light, const double at[4], 
         const double turn = 6.283185307179586 * i / SIDES;
 
         for (int k = 0; k < 3; k++) {
-            const double d = axis[k] + wide * (cos(turn) * u[k] + sin(turn) * v[k]);
+            const double d = axes[2][k] + wide * (cos(turn) * axes[0][k] + sin(turn) * axes[1][k]);
 
             if (reach < INFINITY)
                 out->points[1 + i][k] = at[k] + reach * d;

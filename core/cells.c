@@ -36,25 +36,6 @@ static void add_face(gni_cells *cells, const double axes[3][3], const double lig
     memcpy(rows[2], frame[2], sizeof frame[2]);
 }
 
-/* z along `axis`. */
-static void make_axes(double axes[3][3], const double axis[3])
-{
-    const double length = sqrt(gni_dot(axis, axis));
-    double across[3] = {0, 0, 0}, size;
-    int least = 0;
-
-    for (int i = 0; i < 3; i++)
-        least = fabs(axis[i]) < fabs(axis[least]) ? i : least;
-    across[least] = 1.0;
-    gni_cross(axes[0], axis, across);
-    size = sqrt(gni_dot(axes[0], axes[0]));
-    for (int i = 0; i < 3; i++) {
-        axes[0][i] /= size;
-        axes[2][i] = axis[i] / length;
-    }
-    gni_cross(axes[1], axes[2], axes[0]);
-}
-
 /* One plane for the boxes of all casters. 0 when they are seen under too wide an angle. */
 static int fit_plane(gni_cells *cells, const gni_hull *boxes, const uint8_t *is_in, uint32_t count,
                      const double light[4])
@@ -68,7 +49,7 @@ static int fit_plane(gni_cells *cells, const gni_hull *boxes, const uint8_t *is_
         if (pass == 1 && !(gni_dot(axis, axis) > 0.0))
             return 0;
         if (pass == 1)
-            make_axes(axes, axis);
+            gni_make_axes(axes, axis);
         for (uint32_t b = 0; b < count; b++)
             for (int i = 0; i < 8 && is_in[b] & GNI_IN_CAST; i++) {
                 double d[3], length, at[3];

@@ -191,6 +191,8 @@ typedef struct gni_hull {
 
 void gni_cross(double out[3], const double a[3], const double b[3]);
 double gni_dot(const double a[3], const double b[3]);
+/* Three axes of unit length, at right angles, the third along `axis` (not 0). */
+void gni_make_axes(double axes[3][3], const double axis[3]);
 /* The box around a mesh, in view space. */
 void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16]);
 /* A box along view space's axes. */

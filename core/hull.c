@@ -24,6 +24,24 @@ double gni_dot(const double a[3], const double b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+void gni_make_axes(double axes[3][3], const double axis[3])
+{
+    const double length = sqrt(gni_dot(axis, axis));
+    double across[3] = {0, 0, 0}, size;
+    int least = 0;
+
+    for (int i = 0; i < 3; i++)
+        least = fabs(axis[i]) < fabs(axis[least]) ? i : least;
+    across[least] = 1.0;
+    gni_cross(axes[0], axis, across);
+    size = sqrt(gni_dot(axes[0], axes[0]));
+    for (int i = 0; i < 3; i++) {
+        axes[0][i] /= size;
+        axes[2][i] = axis[i] / length;
+    }
+    gni_cross(axes[1], axes[2], axes[0]);
+}
+
 void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16])
 {
     memset(out, 0, sizeof *out);

@@ -49,20 +49,12 @@ gn_result gn_light_soften(gn_context *context, const gn_light *light, double rad
             out[i].color[c] = light->color[c] / count;
         for (int k = 0; k < 3; k++)
             out[i].position[k] += is_sun ? 0.0 : at[k];
-        if (is_sun) { /* across the direction: radius of the disc at distance 1 */
-            double across[3] = {0, 0, 0}, u[3], v[3], size;
-            int least = 0;
+        if (is_sun && away > 0.0) { /* across the direction: radius of the disc at distance 1 */
+            double axes[3][3];
 
-            for (int k = 1; k < 3; k++)
-                least = fabs(towards[k]) < fabs(towards[least]) ? k : least;
-            across[least] = 1.0;
-            gni_cross(u, towards, across);
-            size = sqrt(gni_dot(u, u));
+            gni_make_axes(axes, towards);
             for (int k = 0; k < 3; k++)
-                u[k] /= size;
-            gni_cross(v, towards, u);
-            for (int k = 0; k < 3 && away > 0.0; k++)
-                out[i].towards[k] = towards[k] + at[0] * u[k] * length + at[2] * v[k];
+                out[i].towards[k] = towards[k] + length * (at[0] * axes[0][k] + at[2] * axes[1][k]);
         }
     }
     return GN_OK;

@@ -79,7 +79,7 @@ static void bounded_frames_are_the_same(void **state)
             .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
         char path[128], message[SCENE_MESSAGE] = "";
         scene loaded;
-        stage *s;
+        stage *s = NULL;
 
         snprintf(path, sizeof path, "build/scenes/%s.gltf", scenes[n]);
         if (!scene_load(&loaded, path, NULL, message) || stage_open(&s, &loaded, &options, message) != 0)
@@ -124,7 +124,7 @@ static void unimportant_lights_cost_what_is_said(void **state)
     double error = 0.0;
     uint32_t out = 0;
     scene loaded;
-    stage *s;
+    stage *s = NULL;
     cost c;
 
     (void)state;
@@ -156,7 +156,7 @@ static void coincident_surfaces_are_lit_once(void **state)
     static uint8_t rgba[3][4 * WIDTH * HEIGHT];
     char message[SCENE_MESSAGE] = "";
     scene loaded;
-    stage *s;
+    stage *s = NULL;
 
     (void)state;
     if (!scene_load(&loaded, "build/scenes/coplanar.gltf", NULL, message) ||
