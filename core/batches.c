@@ -1,17 +1,17 @@
 /* batches.c - counts beyond the stencil's bits: volumes in batches, and casters cut into pieces.
  *
- * A count of n bits that wraps tells 2^n - 1 volumes from none; 256 around a point look like none. Whether so many can lie
- * around one is asked in steps, each dearer than the one before: how many triangles cast at all; half the number of
- * silhouette edges, since as the light sees it a line over a point with L layers crosses L of them on its way in and L on its
- * way out; boxes in cells of light space; triangles and silhouettes in those; and at last in parts of cells. Most scenes end
- * at the first or second.
+ * A count of n bits that wraps tells 2^n - 1 volumes from none; 256 around a point look like none. Whether so many can
+ * lie around one is asked in steps, each dearer than the one before: how many triangles cast at all; half the number of
+ * silhouette edges, since as the light sees it a line over a point with L layers crosses L of them on its way in and L
+ * on its way out; boxes in cells of light space; triangles and silhouettes in those; and at last in parts of cells.
+ * Most scenes end at the first or second.
  *
- * Where they do not, one bit becomes a flag and the rest counts in batches; between two batches what is counted is folded
- * into the flag (DESIGN.md, decision 10). A caster that alone is too much is cut into chains: triangles that hang together
- * through edges where they cancel. Cut so, no new side arises. Only a chain that alone nests too much, such as a helix, is
- * cut through; a piece then also takes the triangles beyond the cut, where limit, room and the chunk of 16-bit indices allow it
- * (for one of the two beside a seam they mostly do), so that a surface that meets a seam within a step of depth loses
- * nothing. What is covered twice is shadowed all the same. */
+ * Where they do not, one bit becomes a flag and the rest counts in batches; between two batches what is counted is
+ * folded into the flag (DESIGN.md, decision 10). A caster that alone is too much is cut into chains: triangles that
+ * hang together through edges where they cancel. Cut so, no new side arises. Only a chain that alone nests too much,
+ * such as a helix, is cut through; a piece then also takes the triangles beyond the cut, where limit, room and the
+ * chunk of 16-bit indices allow it (for one of the two beside a seam they mostly do), so that a surface that meets a
+ * seam within a step of depth loses nothing. What is covered twice is shadowed all the same. */
 #include "gni_plan.h"
 
 #include <string.h>
@@ -20,8 +20,8 @@ size_t gni_most_pieces(const gn_mesh *mesh, size_t ends, uint32_t limit)
 {
     const size_t triangles = mesh->info.triangle_count;
 
-    /* Two groups of chains in a row have more triangles than the limit together; halves of a chain that is cut have a half
-     * of it at least, and a group may be closed before one. */
+    /* Two groups of chains in a row have more triangles than the limit together; halves of a chain that is cut have a
+     * half of it at least, and a group may be closed before one. */
     return triangles <= limit ? ends : 3 * triangles / limit + 2 * ends + 1;
 }
 
@@ -92,8 +92,8 @@ static void emit(const cutter *c)
     gni_add_records(d, c->volume, d->piece);
 }
 
-/* Copies list[count] to ring[] and adds, marked, the neighbours beyond edges where two triangles cancel; of the same chunk,
- * so that a piece has no more records. Returns how many all are. */
+/* Copies list[count] to ring[] and adds, marked, the neighbours beyond edges where two triangles cancel; of the same
+ * chunk, so that a piece has no more records. Returns how many all are. */
 static uint32_t add_ring(const cutter *c, const uint32_t *list, uint32_t count, uint32_t *ring)
 {
     const gn_mesh *mesh = c->mesh;
@@ -118,8 +118,8 @@ static uint32_t add_ring(const cutter *c, const uint32_t *list, uint32_t count, 
     return total;
 }
 
-/* A chain that is too much by itself: halves, until each is not; with its ring where that keeps within the limit and the
- * room. */
+/* A chain that is too much by itself: halves, until each is not; with its ring where that keeps within the limit and
+ * the room. */
 static void cut_through(cutter *c, const uint32_t *list, uint32_t count)
 {
     gni_draft *d = c->d;
@@ -153,8 +153,8 @@ static uint32_t find(uint32_t *parent, uint32_t t)
     return t;
 }
 
-/* d->order: the casting triangles, chain by chain; parent[t] names the chain of each, end[] where that ends. Returns how many
- * triangles cast. */
+/* d->order: the casting triangles, chain by chain; parent[t] names the chain of each, end[] where that ends. Returns
+ * how many triangles cast. */
 static uint32_t sort_chains(const cutter *c)
 {
     const gn_mesh *mesh = c->mesh;
@@ -214,8 +214,8 @@ static int fits(const cutter *c, uint32_t from, uint32_t to)
     return most <= c->limit;
 }
 
-/* Where the longest run of whole chains from `from` on ends that keeps within the limit; `from` when not even one does. Each
- * look costs as much as a grid has cells: so runs are doubled, and the last doubling halved. */
+/* Where the longest run of whole chains from `from` on ends that keeps within the limit; `from` when not even one does.
+ * Each look costs as much as a grid has cells: so runs are doubled, and the last doubling halved. */
 static uint32_t longest_run(const cutter *c, uint32_t from, uint32_t count)
 {
     const uint32_t *order = c->d->order, *parent = c->d->parent;
@@ -311,8 +311,8 @@ static uint32_t measure_all(gni_draft *d, const gni_cells *cells, gni_grid *grid
     return gni_most_layers(cells, grid, NULL);
 }
 
-/* Looks closer at cells with more layers than the limit: silhouettes of fine meshes crowd in a cell, but not at one place.
- * Returns the most that there may be, or more than the limit. */
+/* Looks closer at cells with more layers than the limit: silhouettes of fine meshes crowd in a cell, but not at one
+ * place. Returns the most that there may be, or more than the limit. */
 static uint32_t zoom_in(gni_draft *d, uint32_t limit)
 {
     gni_layers *l = d->layers;

@@ -1,14 +1,14 @@
 /* bounds.c - what a light can reach: its distance, its box and its cone, and where they are seen.
  *
- * A light's reach is the distance from which on the largest of its channels adds less than half a step of the target's bits
- * (McGuire 2003, section 4): such a sum rounds to what was there. The host adds one light in each of its passes, so that no
- * two such rests add up before they are rounded. Reach, box and cone are each projected to the image, clipped to the
- * near plane, and what they have in common is the scissor (section 6, lines 5 and 6; Lengyel 2002).
+ * A light's reach is the distance from which on the largest of its channels adds less than half a step of the target's
+ * bits (McGuire 2003, section 4): such a sum rounds to what was there. The host adds one light in each of its passes,
+ * so that no two such rests add up before they are rounded. Reach, box and cone are each projected to the image,
+ * clipped to the near plane, and what they have in common is the scissor (section 6, lines 5 and 6; Lengyel 2002).
  *
- * A body with corners projects to the box around its corners and around the points where its edges, and all lines between
- * its corners, meet the near plane. A sphere's outermost points along an axis are those where a line from the eye touches
- * its outline, a circle in the plane of that axis and the view's; or, where the near plane cuts them off, those on the near
- * plane. */
+ * A body with corners projects to the box around its corners and around the points where its edges, and all lines
+ * between its corners, meet the near plane. A sphere's outermost points along an axis are those where a line from the
+ * eye touches its outline, a circle in the plane of that axis and the view's; or, where the near plane cuts them off,
+ * those on the near plane. */
 #include "gni.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
 /* camera.c - from world to clip space.
  *
  * A perspective camera's far plane is at infinity, without any epsilon (Everitt 2002, section 3.2.1): rows z and w of
- * the projection differ only in their last column, so that a vertex at infinity gets z = w exactly and is not clipped. A
- * camera's zfar is honoured by the depth to which the buffer is cleared. An orthographic camera spans a finite range,
+ * the projection differ only in their last column, so that a vertex at infinity gets z = w exactly and is not clipped.
+ * A camera's zfar is honoured by the depth to which the buffer is cleared. An orthographic camera spans a finite range,
  * and so does the camera of a host that insists on its own far plane. */
 #include "gni.h"
 

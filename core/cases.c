@@ -1,13 +1,14 @@
 /* cases.c - McGuire's three cases: how a caster is counted, and which parts of its volume that takes.
  *
- * The occlusion pyramid has the light at its tip and the near rectangle at its base (McGuire 2003, section 6, figure 2);
- * a directional light's is a prism without end. Where it misses the caster's box nothing stands between the light and the
- * near rectangle: no volume is cut there, and counting before what is seen is right (case 1). Otherwise counting must
- * be behind what is seen, without a light cap where the caster is out of view (case 2) or with it (case 3).
+ * The occlusion pyramid has the light at its tip and the near rectangle at its base (McGuire 2003, section 6, figure
+ * 2); a directional light's is a prism without end. Where it misses the caster's box nothing stands between the light
+ * and the near rectangle: no volume is cut there, and counting before what is seen is right (case 1). Otherwise
+ * counting must be behind what is seen, without a light cap where the caster is out of view (case 2) or with it (case
+ * 3).
  *
  * A part of a volume that lies outside one plane of the view touches no pixel and is left out. Far corners are the
- * directions from the light through the box's corners, whatever the volume's real end: what is nearer than infinity lies
- * between corner and direction.
+ * directions from the light through the box's corners, whatever the volume's real end: what is nearer than infinity
+ * lies between corner and direction.
  *
  * The view is that of a light's scissor: near rectangle and planes are narrowed to it (McGuire 2003, line 7). */
 #include "gni.h"

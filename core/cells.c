@@ -1,11 +1,12 @@
-/* cells.c - how many casting triangles may lie behind each other, as the light sees them: a bound for each cell of light
- * space.
+/* cells.c - how many casting triangles may lie behind each other, as the light sees them: a bound for each cell of
+ * light space.
  *
  * A point's count is the number of casting triangles that block its line to the light, and that is a matter of the
- * direction as seen from the light, but for how far the line goes. In a cell of directions the number changes only where the
- * silhouette runs through: it is nowhere more than at the cell's centre and the weights of the silhouette edges that
- * touch the cell together (DESIGN.md, decision 10); nor more than the triangles that touch the cell, which is less where
- * they are few and lie apart. Triangles count at a centre when they touch it, rounding and all: too many is safe.
+ * direction as seen from the light, but for how far the line goes. In a cell of directions the number changes only
+ * where the silhouette runs through: it is nowhere more than at the cell's centre and the weights of the silhouette
+ * edges that touch the cell together (DESIGN.md, decision 10); nor more than the triangles that touch the cell, which
+ * is less where they are few and lie apart. Triangles count at a centre when they touch it, rounding and all: too many
+ * is safe.
  *
  * Light space is one plane before the light where all casters are seen within a cone of it, or are lit along one
  * direction; else the six faces of a cube around it. Points are homogeneous there: cell coordinates times w, and w. */
@@ -155,8 +156,8 @@ static void project(outline *out, const gni_cells *cells, int face, double point
     }
 }
 
-/* How far a point lies inside the convex outline; negative outside. By the greatest step on either axis, in cells: half a cell
- * outside, an edge touches the cell around the point. */
+/* How far a point lies inside the convex outline; negative outside. By the greatest step on either axis, in cells: half
+ * a cell outside, an edge touches the cell around the point. */
 static double depth_in(const outline *o, double sign, const double centre[2])
 {
     double least = INFINITY;

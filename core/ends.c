@@ -15,14 +15,14 @@
  *
  * Otherwise the volume may end by reach: all vertices are moved away from the light by one factor of their distance (by
  * one distance, if it is directional), such that the nearest point of the caster comes to lie behind all that is seen.
- * That is right for any caster, in one piece, but a light close to one triangle carries the others far off: a perspective
- * camera whose far plane is at infinity does not mind, others do.
+ * That is right for any caster, in one piece, but a light close to one triangle carries the others far off: a
+ * perspective camera whose far plane is at infinity does not mind, others do.
  *
  * Where there is no room for that before a finite far plane, there is no end. For an orthographic camera, which has no
- * other way, each triangle then takes the plane that keeps its end nearest to the eye, and the caster's volume falls into
- * as many closed volumes as there are planes. A triangle that no face serves (a large one, seen under a wide angle from
- * a light close to it) gets a plane parallel to itself. Volumes that touch have sides back to back: where a surface cuts
- * such a seam within a step or two of depth, a pixel may come out wrong. */
+ * other way, each triangle then takes the plane that keeps its end nearest to the eye, and the caster's volume falls
+ * into as many closed volumes as there are planes. A triangle that no face serves (a large one, seen under a wide angle
+ * from a light close to it) gets a plane parallel to itself. Volumes that touch have sides back to back: where a
+ * surface cuts such a seam within a step or two of depth, a pixel may come out wrong. */
 #include "gni.h"
 
 #include <math.h>
@@ -335,8 +335,8 @@ static int choose_each(gni_ends *ends, const search *s, const int8_t *casting, u
     return 1;
 }
 
-/* The distance from the light to a triangle of view space: to its plane, if it is hit at right angles inside, else to an
- * edge. */
+/* The distance from the light to a triangle of view space: to its plane, if it is hit at right angles inside, else to
+ * an edge. */
 static double distance_to(const double light[3], double v[3][3])
 {
     double nearest = INFINITY, n[3], at[3][3], inside = 1.0, area = 0.0, height = 0.0;

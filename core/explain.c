@@ -1,5 +1,5 @@
-/* explain.c - says in sentences what a plan decided and why: of its lights, of each object in a light, of what it cannot
- * keep. */
+/* explain.c - says in sentences what a plan decided and why: of its lights, of each object in a light, of what it
+ * cannot keep. */
 #include "gni.h"
 
 #include <math.h>

@@ -1,10 +1,11 @@
-/* fan.c - where the dark cap at infinity may be a fan over the silhouette: a triangle an edge (McGuire 2003, section 6).
+/* fan.c - the dark cap at infinity as a fan over the silhouette: a triangle an edge (McGuire 2003, section 6).
  *
- * The cap's shape does not matter there, since nothing is behind it, as long as it closes the volume. With the light outside
- * the caster's box all directions lie in an open half of the sphere, so that no triangle of the fan spans half of it
- * (DESIGN.md, decision 5; McGuire's trap). A fan about a vertex from which a silhouette turns back covers some pixels three
- * times for once. So the vertex taken is the one nearest to the middle as the light sees it, and only if all edges run
- * around it the same way: then the fan covers a direction exactly as often as the casting triangles do. */
+ * The cap's shape does not matter there, since nothing is behind it, as long as it closes the volume. With the light
+ * outside the caster's box all directions lie in an open half of the sphere, so that no triangle of the fan spans half
+ * of it (DESIGN.md, decision 5; McGuire's trap). A fan about a vertex from which a silhouette turns back covers some
+ * pixels three times for once. So the vertex taken is the one nearest to the middle as the light sees it, and only if
+ * all edges run around it the same way: then the fan covers a direction exactly as often as the casting triangles
+ * do. */
 #include "gni.h"
 
 #include <math.h>

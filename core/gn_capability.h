@@ -1,8 +1,8 @@
 /* gn_capability.h - what a GL context and the target that it draws into may be able to do, by name.
  *
- * A capability is advertised (by version, extension or bits), proven (drawn into a few pixels and read back), and hidden
- * (someone pretends that it is absent). Only what is proven and not hidden is used (DESIGN.md, decision 15). The rooms
- * above find out (gles/gnomon_gles.h); plans read. Sets are words with bit 1u << capability. */
+ * A capability is advertised (by version, extension or bits), proven (drawn into a few pixels and read back), and
+ * hidden (someone pretends that it is absent). Only what is proven and not hidden is used (DESIGN.md, decision 15). The
+ * rooms above find out (gles/gnomon_gles.h); plans read. Sets are words with bit 1u << capability. */
 #ifndef GN_CAPABILITY_H
 #define GN_CAPABILITY_H
 #include <stddef.h>

@@ -134,8 +134,8 @@ void gni_projection(double out[16], const gn_camera *camera, const double range[
 /* Window depth of a view distance, 0 to 1. */
 double gni_depth_of(const gn_camera *camera, const double range[2], double distance);
 
-/* casting.c: where a directional light or a cone comes from, in the world, of a length whose powers are numbers. A power of
- * two times what was given: no bit is lost. */
+/* casting.c: where a directional light or a cone comes from, in the world, of a length whose powers are numbers. A
+ * power of two times what was given: no bit is lost. */
 void gni_towards(double out[3], const gn_light *light);
 
 /* extrude.c */
@@ -282,8 +282,8 @@ typedef struct gni_ends {
 } gni_ends;
 
 /* Chooses end planes. light: [4] view space. end_of: [triangle_count] receives the plane of each casting triangle, or
- * GNI_MAX_ENDS for one that shadows nothing visible. Returns 0 when nothing ends them all before the region's limit: one
- * end where the region is deep, else GNI_MAX_ENDS planes. */
+ * GNI_MAX_ENDS for one that shadows nothing visible. Returns 0 when nothing ends them all before the region's limit:
+ * one end where the region is deep, else GNI_MAX_ENDS planes. */
 int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mesh, const double model_view[16],
                     const double light[4], const int8_t *casting, uint8_t *end_of);
 #endif

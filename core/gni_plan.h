@@ -29,8 +29,8 @@ void gni_fit_cells(gni_cells *cells, const gni_hull *boxes, const uint8_t *is_in
 /* Cells that part one of `from`. */
 void gni_zoom_cells(gni_cells *out, const gni_cells *from, int cell);
 void gni_cells_add_box(const gni_cells *cells, gni_grid *grid, const gni_hull *box, uint32_t amount);
-/* The layers of the triangles of list[count]; casting holds 0 for all others. `touches` is scratch. Returns the most of a
- * cell. */
+/* The layers of the triangles of list[count]; casting holds 0 for all others. `touches` is scratch. Returns the most of
+ * a cell. */
 uint32_t gni_measure_triangles(const gni_cells *cells, gni_grid *grid, gni_grid *touches, const gn_mesh *mesh,
                                const double model_view[16], const int8_t *casting, const uint32_t *list,
                                uint32_t count);
@@ -97,8 +97,8 @@ gn_result gni_add_light(gni_draft *d, uint32_t light);
 /* Homogeneous, in view space, the eye subtracted first. */
 void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4]);
 
-/* receivers.c: for a flat caster, its plane in view space, positive where the light is, if the eye is there too and all of the
- * caster is drawn; else 0. */
+/* receivers.c: for a flat caster, its plane in view space, positive where the light is, if the eye is there too and all
+ * of the caster is drawn; else 0. */
 int gni_lit_side(const gni_draft *d, uint32_t object, double plane[4]);
 /* Whether the volume may touch something that receives, is seen and lit. plane: of gni_lit_side(), or NULL. */
 int gni_shadows_anything(const gni_draft *d, uint32_t object, const gni_hull *volume, const double *plane);

@@ -3,8 +3,8 @@
  * Turns meshes, lights and a camera into a plan: which volumes are drawn, how, in which order, with their index
  * streams. It does not draw (gles/gnomon_gles.h does), load models, open files or make contexts.
  *
- * space     mesh positions in object space; lights, cameras and model matrices in world space; names ending in _px count
- *           pixels from the lower left. Column vectors; matrices as in gn_matrix.h
+ * space     mesh positions in object space; lights, cameras and model matrices in world space; names ending in _px
+ *           count pixels from the lower left. Column vectors; matrices as in gn_matrix.h
  * winding   counter-clockwise is the front of a triangle, in object space
  * light     double[4] homogeneous where it stands alone: w = 1 a position, w = 0 a direction towards the light
  * units     lengths in scene units, angles in radians, sizes in bytes
@@ -153,17 +153,17 @@ typedef struct gn_camera {
     double left, right, bottom, top;
     double znear; /* greater than 0; orthographic: any, less than zfar */
     double zfar;  /* perspective: 0 for infinite. orthographic: greater than znear, or 0 for behind everything */
-    /* Perspective: 1 when the host insists on a projection of its own whose far plane is zfar, which must then be given.
-     * Volumes must end before it there, or need depth clamp and casters that neither plane cuts: a frame with a caster of
-     * neither kind is refused. [0: the projection's far plane is at infinity, zfar the depth to which the buffer is
-     * cleared] */
+    /* Perspective: 1 when the host insists on a projection of its own whose far plane is zfar, which must then be
+     * given. Volumes must end before it there, or need depth clamp and casters that neither plane cuts: a frame with a
+     * caster of neither kind is refused. [0: the projection's far plane is at infinity, zfar the depth to which the
+     * buffer is cleared] */
     int finite_far;
 } gn_camera;
 
 typedef enum gn_light_kind { GN_LIGHT_POINT, GN_LIGHT_SPOT, GN_LIGHT_DIRECTIONAL } gn_light_kind;
 
-/* Start from {0}: what bounds a light is optional, and a zero there says that nothing does. The method stencil leaves out
- * what lies outside the bounds, so they must hold: nothing outside may be lit. */
+/* Start from {0}: what bounds a light is optional, and a zero there says that nothing does. The method stencil leaves
+ * out what lies outside the bounds, so they must hold: nothing outside may be lit. */
 typedef struct gn_light {
     gn_light_kind kind;
     double position[3]; /* world; point and spot */
@@ -171,8 +171,8 @@ typedef struct gn_light {
     double towards[3];
     double cone;  /* spot: half the angle of its cone, radians, less than pi / 2 [no cone] */
     double range; /* point and spot: nothing farther is lit [unlimited] */
-    /* The most that it adds to a pixel where its attenuation is 1, by channel, 1 being full: its reach is the distance from
-     * which on every channel stays under half a step of the target's bits, which then add nothing [unlimited] */
+    /* The most that it adds to a pixel where its attenuation is 1, by channel, 1 being full: its reach is the distance
+     * from which on every channel stays under half a step of the target's bits, which then add nothing [unlimited] */
     double color[3];
     double attenuation[3];         /* k of 1 / (k[0] + k[1] d + k[2] d^2) at the distance d [1: none] */
     double box_min[3], box_max[3]; /* world: nothing outside is lit, by a light of any kind [both 0: no box] */
@@ -180,16 +180,16 @@ typedef struct gn_light {
     uint32_t exempt_count;
 } gn_light;
 
-/* A light with extent as `count` lights within `radius` of it, each with as much of its color, at jittered places that are
- * the same in every frame (McGuire 2003, section 4). radius: of a directional light, of its disc at distance 1 (the sun's is
- * 0.0047); one light alone stays where it is. Each has the bounds of the whole; the list of the exempt stays borrowed. out:
- * [count]. Returns GN_OK, GN_E_ARG. */
+/* A light with extent as `count` lights within `radius` of it, each with as much of its color, at jittered places that
+ * are the same in every frame (McGuire 2003, section 4). radius: of a directional light, of its disc at distance 1 (the
+ * sun's is 0.0047); one light alone stays where it is. Each has the bounds of the whole; the list of the exempt stays
+ * borrowed. out: [count]. Returns GN_OK, GN_E_ARG. */
 gn_result gn_light_soften(gn_context *context, const gn_light *light, double radius, uint32_t count, gn_light *out);
 
 enum {
     GN_CASTS = 1, /* its triangles block light */
-    /* It is drawn under the mask; without: lit as if nothing stood in the way. What does not touch an object with this flag need
-     * not be drawn, once any object has it: so all that receives must be among the objects then. */
+    /* It is drawn under the mask; without: lit as if nothing stood in the way. What does not touch an object with this
+     * flag need not be drawn, once any object has it: so all that receives must be among the objects then. */
     GN_RECEIVES = 2,
     GN_DRAWN = 4,      /* every triangle whose front the eye sees is drawn to depth: none is cut by alpha or left out */
     GN_DRAWN_BACKS = 8 /* and so is every one whose back it sees. With both flags z-pass does without its light cap */
@@ -246,8 +246,8 @@ const gn_method_info *gn_method_describe(gn_method method);
  * otherwise 0. */
 gn_method gn_method_by_name(const char *name, int *one_sided);
 
-/* Of a stencil that tells lit from shadowed by a count in its low bits (DESIGN.md, decision 10). A pixel is lit where the
- * whole stencil equals the reference. */
+/* Of a stencil that tells lit from shadowed by a count in its low bits (DESIGN.md, decision 10). A pixel is lit where
+ * the whole stencil equals the reference. */
 typedef struct gn_stencil_layout {
     int two_sided; /* 0: every caster is drawn twice, one side of its volume at a time, what counts up first */
     int discard;   /* then the other side is discarded by gl_FrontFacing; 0: culled, which may lose slivers */
@@ -276,11 +276,13 @@ typedef struct gn_scene {
     gn_target target;
     gn_method method;
     int one_sided; /* 1: one side of volumes at a time, even where two-sided stencil is proven */
-    /* 1: of coincident surfaces only the first that is drawn is lit, by counting in the light's pass (Everitt 2002, section
-     * 6, step E), and the host may write no stencil of its own; otherwise their light adds up where their depths are the same */
+    /* 1: of coincident surfaces only the first that is drawn is lit, by counting in the light's pass (Everitt 2002,
+     * section 6, step E), and the host may write no stencil of its own; otherwise their light adds up where their
+     * depths are the same */
     int blend_once;
-    /* A choice: lights that add no more than this to any pixel are left out, by the method stencil. Their bounds, colors and
-     * attenuations must be given; gn_plan_light.possible_error says what may be missing [0: none is left out] */
+    /* A choice: lights that add no more than this to any pixel are left out, by the method stencil. Their bounds,
+     * colors and attenuations must be given; gn_plan_light.possible_error says what may be missing [0: none is left
+     * out] */
     double least_light;
 } gn_scene;
 
@@ -371,17 +373,17 @@ typedef struct gn_plan_caster {
 
 /* What a plan cannot keep, known before the frame. */
 typedef enum gn_warning {
-    /* Counting stops at the ends of the range and more triangles cast than that: nothing proves that they are not behind each
-     * other on some line of sight. */
+    /* Counting stops at the ends of the range and more triangles cast than that: nothing proves that they are not
+     * behind each other on some line of sight. */
     GN_WARN_OVERFLOW,
-    /* Volumes of orthographic cameras that were left out, because the light is so close to so many large triangles that their
-     * ends need too many planes. */
+    /* Volumes of orthographic cameras that were left out, because the light is so close to so many large triangles that
+     * their ends need too many planes. */
     GN_WARN_ENDLESS,
-    /* From some distance on four steps of depth are larger than a pixel, and something that receives is seen there: edges of
-     * shadows may stray by more than a pixel, and thin things lose theirs. */
+    /* From some distance on four steps of depth are larger than a pixel, and something that receives is seen there:
+     * edges of shadows may stray by more than a pixel, and thin things lose theirs. */
     GN_WARN_DEPTH,
-    /* Something in view has vertices so far from the plane of the eye, before it or behind, that a float of a vertex shader
-     * does not tell their depth from infinity (znear times 2^21): all of such triangles may be too deep. */
+    /* Something in view has vertices so far from the plane of the eye, before it or behind, that a float of a vertex
+     * shader does not tell their depth from infinity (znear times 2^21): all of such triangles may be too deep. */
     GN_WARN_FLOAT,
     GN_WARNING_COUNT
 } gn_warning;
@@ -399,8 +401,8 @@ typedef struct gn_plan {
     gn_target target;
     int blend_once;     /* as in the scene */
     double clear_depth; /* 1, or the depth of zfar */
-    /* View distances that depth 0 and 1 stand for. [0] is znear, or up to an eighth less, so that floats tell it from w; [1] is
-     * INFINITY for most perspective cameras. */
+    /* View distances that depth 0 and 1 stand for. [0] is znear, or up to an eighth less, so that floats tell it from
+     * w; [1] is INFINITY for most perspective cameras. */
     double depth_range[2];
     const gn_step *steps;
     uint32_t step_count;
@@ -421,23 +423,23 @@ typedef struct gn_plan {
 } gn_plan;
 
 /* Bytes that gn_plan_make() may need for this scene at most, whatever the camera, the lights' places and the model
- * matrices are: it depends on the counts, the meshes, the flags, camera.orthographic, camera.finite_far and the target's
- * capabilities only. 0 when scene is NULL or the size does not fit size_t. */
+ * matrices are: it depends on the counts, the meshes, the flags, camera.orthographic, camera.finite_far and the
+ * target's capabilities only. 0 when scene is NULL or the size does not fit size_t. */
 size_t gn_plan_bound(const gn_scene *scene);
 
 /* Makes the plan of a frame in the given memory (aligned for double). Pure: equal scenes give equal bytes. Allocates
  * nothing. Returns GN_OK; GN_E_ARG for what is not finite or out of range; GN_E_SPACE; GN_E_DEVICE when the method
  * needs what the target lacks, or when a volume would be clipped at the far plane. Cost, for each light: O(triangles of
- * casters); boxes of casters against boxes of receivers until one is touched; and where more layers are possible than the stencil
- * counts, a few times as much again for each batch. */
+ * casters); boxes of casters against boxes of receivers until one is touched; and where more layers are possible than
+ * the stencil counts, a few times as much again for each batch. */
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan);
 
-/* The method of one of the plan's lights with its suffix: "zfail", "zfail/one-sided". Static; "" for a light that is none of
- * the plan's. */
+/* The method of one of the plan's lights with its suffix: "zfail", "zfail/one-sided". Static; "" for a light that is
+ * none of the plan's. */
 const char *gn_plan_method_name(const gn_plan *plan, uint32_t light);
 
-/* Sentences about a plan, into text[capacity]: always terminated when capacity > 0; they return the length that the whole
- * has, like snprintf, and 0 for what is not of the plan.
+/* Sentences about a plan, into text[capacity]: always terminated when capacity > 0; they return the length that the
+ * whole has, like snprintf, and 0 for what is not of the plan.
  *
  * Of a light: its method and why, what bounds it, how it is counted, or why it is skipped. */
 size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, size_t capacity);

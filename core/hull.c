@@ -2,11 +2,11 @@
  *
  * Boxes are of object space, so that in view space they are parallelepipeds, sheared ones too. A body is the hull of
  * points and of directions, in which it goes on without end. Two bodies are apart when some axis separates them: the
- * normals of faces, and the products of edges, are tried by those who know them. A margin keeps rounding on the safe side;
- * where no axis can be told, the bodies touch.
+ * normals of faces, and the products of edges, are tried by those who know them. A margin keeps rounding on the safe
+ * side; where no axis can be told, the bodies touch.
  *
- * An axis that was made at right angles to a direction is so but for rounding, and sees no end that way: the shift that the
- * rounding makes is far below the margin wherever the other body, which has an end, can be touched. */
+ * An axis that was made at right angles to a direction is so but for rounding, and sees no end that way: the shift that
+ * the rounding makes is far below the margin wherever the other body, which has an end, can be touched. */
 #include "gni.h"
 
 #include <math.h>

@@ -2,8 +2,8 @@
  *
  * The order of the passes is McGuire's (2003, section 4): depth and ambient light together; for each light its volumes
  * counted into the stencil and its light added where the count is zero; last what is transparent. The whole colour,
- * depth and stencil are cleared once; between lights the stencil is zeroed by a quad where it has to be (DESIGN.md, decision
- * 9). plan_light.c decides a light.
+ * depth and stencil are cleared once; between lights the stencil is zeroed by a quad where it has to be (DESIGN.md,
+ * decision 9). plan_light.c decides a light.
  *
  * Memory is cut from the given block from its front: the bound and the plan walk the same list of arrays. */
 #include "gni_plan.h"
@@ -129,8 +129,9 @@ static void find_range(gni_draft *d)
         d->plan->depth_range[1] = s->camera.znear + 1.0; /* nothing in front of the camera */
 }
 
-/* A step of depth at the view distance z is z^2 / (n 2^bits) wide. Surface and side are each rounded to one, the side is drawn
- * one behind, and interpolation adds another: from where four are larger than a pixel on, edges may stray by more than that. */
+/* A step of depth at the view distance z is z^2 / (n 2^bits) wide. Surface and side are each rounded to one, the side
+ * is drawn one behind, and interpolation adds another: from where four are larger than a pixel on, edges may stray by
+ * more than that. */
 static void find_depth_limit(gni_draft *d)
 {
     const gn_scene *s = d->scene;
@@ -211,9 +212,9 @@ static void start_plan(gni_draft *d)
     plan->clear_depth = 1.0;
 }
 
-/* A vertex shader's floats compute clip w, and z = w - 2 n beside it. What rounding does to the two cancels where 2 n is a
- * multiple of the last bit of the greatest w: so n is brought nearer to the eye by less than that bit, and by an eighth of
- * itself at most. Where that is not enough depths go wrong, in proportion: a warning. */
+/* A vertex shader's floats compute clip w, and z = w - 2 n beside it. What rounding does to the two cancels where 2 n
+ * is a multiple of the last bit of the greatest w: so n is brought nearer to the eye by less than that bit, and by an
+ * eighth of itself at most. Where that is not enough depths go wrong, in proportion: a warning. */
 static void round_near(gni_draft *d, gn_scene *own)
 {
     gn_camera *c = &own->camera;

@@ -1,4 +1,5 @@
-/* plan_check.c - what a scene must be for a plan: every number finite and in its range. The first that is not is named. */
+/* plan_check.c - what a scene must be for a plan: every number finite and in its range. The first that is not is
+ * named. */
 #include "gni_plan.h"
 
 #include <math.h>

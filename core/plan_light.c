@@ -1,9 +1,9 @@
 /* plan_light.c - one light of a frame: what bounds it, which objects it lights and which of them cast, and its steps
  * (McGuire 2003, section 6, DetermineShadows).
  *
- * *Model only what a scene requires*: the method stencil asks of every light where it is seen, and of every caster whether
- * it is within reach and whether its volume touches anything that receives, is seen and is lit. What is not, costs
- * nothing, and the plan says why.
+ * *Model only what a scene requires*: the method stencil asks of every light where it is seen, and of every caster
+ * whether it is within reach and whether its volume touches anything that receives, is seen and is lit. What is not,
+ * costs nothing, and the plan says why.
  *
  * The other methods draw every caster in the whole target: they are what stencil is measured by. */
 #include "gni_plan.h"

@@ -1,9 +1,9 @@
-/* plan_volumes.c - the records of one caster in one light: which parts of its volume are drawn, where it ends, and its index
- * stream.
+/* plan_volumes.c - the records of one caster in one light: which parts of its volume are drawn, where it ends, and its
+ * index stream.
  *
  * z-pass alone, and so McGuire's case 1, leaves the light cap out where the caster itself is seen in its place: every
- * triangle of it drawn to depth, whichever side the eye sees (DESIGN.md, decision 4). Hosts that cull draw none of the slivers
- * that turn over when their vertices are rounded, and such a hole would be counted. */
+ * triangle of it drawn to depth, whichever side the eye sees (DESIGN.md, decision 4). Hosts that cull draw none of the
+ * slivers that turn over when their vertices are rounded, and such a hole would be counted. */
 #include "gni_plan.h"
 
 #include <math.h>
@@ -51,8 +51,9 @@ static int greatest_exponent(const double m[16])
     return exponent;
 }
 
-/* Homogeneous matrices mean the same at any scale, and a power of two keeps every bit: far vertices get the magnitude of near
- * ones. A light far away stays within float, and clipping a side between the two rounds alike in every unit of length. */
+/* Homogeneous matrices mean the same at any scale, and a power of two keeps every bit: far vertices get the magnitude
+ * of near ones. A light far away stays within float, and clipping a side between the two rounds alike in every unit of
+ * length. */
 static void scale_like(double m[16], const double near_matrix[16])
 {
     const int shift = greatest_exponent(near_matrix) - greatest_exponent(m);
@@ -161,8 +162,8 @@ static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, 
     add_volume(d, &v, d->casting);
 }
 
-/* Whether a plane of the camera cuts the object's box. Its surfaces are clipped there; drawn under depth clamp they would
- * not be, and their depths would be others by more than a step: its light cap would shadow it. */
+/* Whether a plane of the camera cuts the object's box. Its surfaces are clipped there; drawn under depth clamp they
+ * would not be, and their depths would be others by more than a step: its light cap would shadow it. */
 static int is_cut(const gni_draft *d, uint32_t object_index)
 {
     const gn_camera *camera = &d->scene->camera;
@@ -176,8 +177,8 @@ static int is_cut(const gni_draft *d, uint32_t object_index)
            (camera->finite_far && nearest <= camera->zfar * (1.0 + 1e-6) && farthest >= camera->zfar * (1.0 - 1e-6));
 }
 
-/* Nothing ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not stop
- * the frame; elsewhere depth clamp does where it can, or the frame is refused. */
+/* Nothing ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not
+ * stop the frame; elsewhere depth clamp does where it can, or the frame is refused. */
 static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *at_hand)
 {
     const gn_camera *camera = &d->scene->camera;

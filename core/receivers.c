@@ -1,8 +1,9 @@
 /* receivers.c - whether a caster's volume touches anything that is there to be shadowed.
  *
  * A floor on which all stands shadows nothing: flat casters that the eye and the light see from the same side shadow
- * nothing on that side, nor themselves. Their volumes are left out where their border is out of view. On the border itself
- * rasterised depths of surface and side may disagree; there both ways of counting do alike, and the volume is drawn. */
+ * nothing on that side, nor themselves. Their volumes are left out where their border is out of view. On the border
+ * itself rasterised depths of surface and side may disagree; there both ways of counting do alike, and the volume is
+ * drawn. */
 #include "gni_plan.h"
 
 #include <math.h>

@@ -1,8 +1,8 @@
-/* soft.c - an area light as several point lights at jittered places that stay where they are from frame to frame (McGuire
- * 2003, section 4; Everitt 2002, section 6).
+/* soft.c - an area light as several point lights at jittered places that stay where they are from frame to frame
+ * (McGuire 2003, section 4; Everitt 2002, section 6).
  *
- * Places are those of a spiral through a ball (a disc for a light at infinity) in even steps of volume, which leaves no gaps
- * and no rows, each moved by a fixed amount that only its number decides. */
+ * Places are those of a spiral through a ball (a disc for a light at infinity) in even steps of volume, which leaves no
+ * gaps and no rows, each moved by a fixed amount that only its number decides. */
 #include "gni.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
-/* advertised.c - what a driver says that it can do: by version, by whole words of its extensions, by bits of the target.
+/* advertised.c - what a driver says that it can do: by version, by whole words of its extensions, by bits of the
+ * target.
  *
  * OSMesa's contexts are desktop OpenGL, so each row knows both families. */
 #include "gni_gles.h"

@@ -17,22 +17,22 @@
  *
  * GL state. Between gn_gles_begin() and the end of the walk the host may change anything but the bound framebuffer.
  *
- *     on entry   the framebuffer that the plan's target describes is bound, to draw and to read; no GL error is pending;
- *                the depth range is 0 to 1, and depth clamp, sample coverage and sample alpha to coverage are off, as in
- *                a new context. Any other state
+ *     on entry   the framebuffer that the plan's target describes is bound, to draw and to read; no GL error is
+ *                pending; the depth range is 0 to 1, and depth clamp, sample coverage and sample alpha to coverage are
+ *                off, as in a new context. Any other state
  *     clear      the first gn_gles_next() clears colour (to the host's clear colour), depth and stencil, unmasked
  *     AMBIENT    depth test LESS, depth written; stencil test and blending off
  *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL to the light's
- *                stencil.reference, stencil not written; the others: stencil test off. A plan that has blend_once: stencil
- *                test EQUAL for both, and INCR where it passes. Scissor test on where the light's scissor is not the whole
- *                target, depth bounds test where its depth bounds are not 0 and 1
+ *                stencil.reference, stencil not written; the others: stencil test off. A plan that has blend_once:
+ *                stencil test EQUAL for both, and INCR where it passes. Scissor test on where the light's scissor is
+ *                not the whole target, depth bounds test where its depth bounds are not 0 and 1
  *     FINAL      depth test LESS, depth not written; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA; stencil test off
  *     in each    viewport 0, 0, width, height of the target; colour written; culling, polygon offset and depth clamp
- *                off, and so are scissor test and depth bounds test but in LIGHT; front face CCW; blend equation ADD; no program in use; no buffer bound; all vertex attribute
- *                arrays disabled
- *     on exit    after gn_gles_next() has returned 0: all of these, cull face, polygon offset, depth clamp, depth bounds,
- *                clear depth and clear stencil are as in a new context, but the viewport and the scissor's box, which are
- *                the target's. Nothing else was
+ *                off, and so are scissor test and depth bounds test but in LIGHT; front face CCW; blend equation ADD;
+ *                no program in use; no buffer bound; all vertex attribute arrays disabled
+ *     on exit    after gn_gles_next() has returned 0: all of these, cull face, polygon offset, depth clamp, depth
+ *                bounds, clear depth and clear stencil are as in a new context, but the viewport and the scissor's box,
+ *                which are the target's. Nothing else was
  *                ever touched: textures, dither, clear colour, pixel store, attribute pointers but that of array 0
  *
  * Errors come as gn_result, sentences from gn_message() of the context; drivers' logs go to its port. Walking allocates
@@ -78,17 +78,17 @@ void gn_gles_forget(gn_gles *gl);
 const gn_gl *gn_gles_functions(const gn_gles *gl);
 
 /* Finds out what the bound framebuffer is and what can be done there: bits, what is advertised, and, by drawing and
- * reading back, what is proven. Once for each target: the contents of the framebuffer are lost, and the GL waits. GL state
- * is as before; on entry the framebuffer is bound to draw and to read, depth clamp is off, no GL error is pending, no query
- * of time runs, and pixels are not packed into a buffer.
+ * reading back, what is proven. Once for each target: the contents of the framebuffer are lost, and the GL waits. GL
+ * state is as before; on entry the framebuffer is bound to draw and to read, depth clamp is off, no GL error is
+ * pending, no query of time runs, and pixels are not packed into a buffer.
  *
  * width, height  of the framebuffer, which the GL does not tell
  * saved          a text of gn_gles_save_target(): if it is of this driver and such a target, nothing is drawn. Anything
  *                else, NULL too, is passed over
- * Tells the port's log of each capability that is found, by drawing, to be advertised and to fail. Framebuffers that cannot
- * be read as plain levels (multisampled objects, floats, integers, sRGB), and those under 16 pixels wide or high, are
- * proven on a framebuffer object of 8 bits a channel, 24 of depth and 8 of stencil; what blending does to levels that
- * are not plain counts as not advertised. Returns GN_OK; GN_E_ARG; GN_E_DEVICE when the framebuffer is not
+ * Tells the port's log of each capability that is found, by drawing, to be advertised and to fail. Framebuffers that
+ * cannot be read as plain levels (multisampled objects, floats, integers, sRGB), and those under 16 pixels wide or
+ * high, are proven on a framebuffer object of 8 bits a channel, 24 of depth and 8 of stencil; what blending does to
+ * levels that are not plain counts as not advertised. Returns GN_OK; GN_E_ARG; GN_E_DEVICE when the framebuffer is not
  * complete. */
 gn_result gn_gles_describe_target(gn_gles *gl, uint32_t width, uint32_t height, const char *saved, gn_target *target);
 
@@ -105,9 +105,9 @@ size_t gn_gles_save_target(const gn_gles *gl, const gn_target *target, char *tex
 gn_result gn_gles_upload(gn_gles *gl, const gn_mesh *mesh);
 void gn_gles_unload(gn_gles *gl, const gn_mesh *mesh); /* does nothing for one that is not there */
 
-/* Starts a frame: checks that every caster of the plan is uploaded and sends the plan's indices. The first plan that counts
- * one side at a time also has a shader compiled. The plan must stay until the walk has ended. Returns GN_OK; GN_E_ARG;
- * GN_E_DEVICE when that shader is refused. */
+/* Starts a frame: checks that every caster of the plan is uploaded and sends the plan's indices. The first plan that
+ * counts one side at a time also has a shader compiled. The plan must stay until the walk has ended. Returns GN_OK;
+ * GN_E_ARG; GN_E_DEVICE when that shader is refused. */
 gn_result gn_gles_begin(gn_gles *gl, const gn_plan *plan);
 
 /* Does what the plan says up to the next step that is the host's. Returns 1 with that step, or 0 at the frame's end. */

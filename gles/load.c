@@ -1,5 +1,5 @@
-/* load.c - fills the function table from a platform's look-up. Extensions' functions come last, by the name that they have
- * in the family of the context: many a look-up finds something under any name. */
+/* load.c - fills the function table from a platform's look-up. Extensions' functions come last, by the name that they
+ * have in the family of the context: many a look-up finds something under any name. */
 #include "gn_gl.h"
 
 #include <stddef.h>

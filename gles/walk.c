@@ -1,12 +1,12 @@
 /* walk.c - walks a plan: decides nothing, does each step as data says, and stops where the host is to draw.
  *
  * Counting (Everitt 2002, section 3.3): a volume's surface faces outward. z-fail counts what lies behind the visible
- * surface, back faces up and front faces down; z-pass what lies before it, the other way round. Depth is compared LESS: a
- * light cap that is the visible surface itself counts as behind it, and that is why a surface is unlit on the side
+ * surface, back faces up and front faces down; z-pass what lies before it, the other way round. Depth is compared LESS:
+ * a light cap that is the visible surface itself counts as behind it, and that is why a surface is unlit on the side
  * turned away from the light and lit on the other. Where stencil is two-sided one draw counts both ways, else two draws
- * do, a side each. Wrapping keeps their order from mattering; counts that stop at the ends start in the middle (the light's
- * layout says where and how far they reach). The flag above them, of what earlier batches counted, needs no mask: what is
- * borrowed from it on the way comes back, since the sum is within the bits below.
+ * do, a side each. Wrapping keeps their order from mattering; counts that stop at the ends start in the middle (the
+ * light's layout says where and how far they reach). The flag above them, of what earlier batches counted, needs no
+ * mask: what is borrowed from it on the way comes back, since the sum is within the bits below.
  *
  * Volumes are moved away from the eye by one step of the depth buffer. Beside a silhouette edge a side, or the other
  * face of a fold, lies less than a step behind the visible surface, and interpolation may put it before: the cap
@@ -27,7 +27,8 @@ static const gni_state final = {.color_write = GL_TRUE,
                                 .blend_destination = GL_ONE_MINUS_SRC_ALPHA};
 static const gni_state unmasked = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .stencil_write = ~0u};
 
-/* Nothing outside a light's bounds is lit: its passes stay in its scissor, and where the driver can within its depths. */
+/* Nothing outside a light's bounds is lit: its passes stay in its scissor, and where the driver can within its
+ * depths. */
 static void bound(gni_state *s, const gn_plan *plan, const gn_plan_light *l)
 {
     if (l->scissor[2] < plan->target.width || l->scissor[3] < plan->target.height)

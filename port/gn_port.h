@@ -1,4 +1,5 @@
-/* gn_port.h - all that gnomon asks of a machine: memory, a log, a clock, settings. New board: copy port/port_template.c.
+/* gn_port.h - all that gnomon asks of a machine: memory, a log, a clock, settings. New board: copy
+ * port/port_template.c.
  *
  * threads   gnomon calls a port only from inside the calls that a host makes, on the host's thread
  * lifetime  the struct is copied when a context is made; what `user` points to must outlive the context */
@@ -26,8 +27,8 @@ typedef struct gn_port {
     void (*log)(void *user, int level, const char *line);
     /* Microseconds that never go backwards; only differences are used. [no time is measured] */
     uint64_t (*now_us)(void *user);
-    /* Since version 2. A setting that comes from outside the program, such as an environment variable: GNOMON_HIDE names
-     * capabilities to pretend absent. NULL where there is none. [no settings] */
+    /* Since version 2. A setting that comes from outside the program, such as an environment variable: GNOMON_HIDE
+     * names capabilities to pretend absent. NULL where there is none. [no settings] */
     const char *(*setting)(void *user, const char *name);
 } gn_port;
 

@@ -1,5 +1,5 @@
-/* probe.c - `gnomon probe`: what the context is, what it says that it can do and what of that is true, and which methods
- * that makes possible. It never fails because something is absent. */
+/* probe.c - `gnomon probe`: what the context is, what it says that it can do and what of that is true, and which
+ * methods that makes possible. It never fails because something is absent. */
 #include "command.h"
 
 #include <cjson/cJSON.h>

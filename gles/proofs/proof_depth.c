@@ -25,8 +25,8 @@ static int hides(gni_proofs *p)
            gni_is_color(p, 8, 0, 8, CELL, is_blue, "what is in front is not drawn");
 }
 
-/* Over depth 0.5 a plane that starts before it and leaves the far plane: drawn where it is behind, also beyond. With the
- * offset that volumes have: softpipe moves and clamps vertices then, which tilts the plane. */
+/* Over depth 0.5 a plane that starts before it and leaves the far plane: drawn where it is behind, also beyond. With
+ * the offset that volumes have: softpipe moves and clamps vertices then, which tilts the plane. */
 static void draw_clamped(gni_proofs *p)
 {
     static const float tilted[16] = {1, 0, 2, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1}; /* z = 1 + 2 x */

@@ -55,7 +55,8 @@ static int discards(gni_proofs *p)
     return gni_is_color(p, 0, 0, CELL, CELL, is_red, "colour is lost with depth and stencil");
 }
 
-/* Over depths 0.25 and 0.75 that are there already, a rectangle under bounds of 0.5 to 1 is drawn on the second alone. */
+/* Over depths 0.25 and 0.75 that are there already, a rectangle under bounds of 0.5 to 1 is drawn on the second
+ * alone. */
 static int bounds_depth(gni_proofs *p)
 {
     const gn_gl *gl = p->gl;

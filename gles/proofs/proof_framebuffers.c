@@ -1,5 +1,5 @@
-/* proof_framebuffers.c - framebuffer objects: formats of colour, depth with stencil, depth that two of them share, depth
- * in a texture. Complete is what a driver calls them; proven is what was drawn into one and read back. */
+/* proof_framebuffers.c - framebuffer objects: formats of colour, depth with stencil, depth that two of them share,
+ * depth in a texture. Complete is what a driver calls them; proven is what was drawn into one and read back. */
 #include "proofs.h"
 
 #include "shaders/sample.frag.h"

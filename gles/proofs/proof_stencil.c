@@ -109,8 +109,8 @@ static void set_sides(gni_proofs *p, GLenum front, GLenum back, int fails)
     p->gl->glStencilOpSeparate(GL_BACK, keep, fails ? back : keep, fails ? keep : back);
 }
 
-/* Fronts up in the left half, backs down in the right, from 128; above that, where wrapping is offered, backs down from 0
- * everywhere, then fronts up in the right half. By passing depth in the lower rows, by failing it in the upper. */
+/* Fronts up in the left half, backs down in the right, from 128; above that, where wrapping is offered, backs down from
+ * 0 everywhere, then fronts up in the right half. By passing depth in the lower rows, by failing it in the upper. */
 static void draw_sides(gni_proofs *p)
 {
     const int all_wrap = gni_proofs_can(p, GN_CAN_STENCIL_WRAP);

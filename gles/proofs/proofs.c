@@ -1,5 +1,6 @@
 /* proofs.c - runs the proofs: those in cells of the target, as many at a time as it holds, then those alone, most of
- * them with framebuffer objects of their own. What fails is told to the port's log, with the driver's name and the symptom. */
+ * them with framebuffer objects of their own. What fails is told to the port's log, with the driver's name and the
+ * symptom. */
 #include "proofs.h"
 
 #include <stdarg.h>
@@ -222,8 +223,8 @@ static void prove_alone(gni_proofs *p, const gni_lone_proof *list, int count, GL
     }
 }
 
-/* Framebuffers that cannot be read as plain levels of red, green and blue (multisampled objects, floats, integers, sRGB),
- * and those smaller than a cell, are proven on one of 8 bits a channel, 24 of depth and 8 of stencil. */
+/* Framebuffers that cannot be read as plain levels of red, green and blue (multisampled objects, floats, integers,
+ * sRGB), and those smaller than a cell, are proven on one of 8 bits a channel, 24 of depth and 8 of stencil. */
 typedef struct stand_in {
     GLuint framebuffer, texture, depth;
 } stand_in;

@@ -58,8 +58,8 @@ void gni_draw_rectangle(gni_proofs *p, int x, int y, int width, int height, floa
 /* The same from the corners (+-1, +-1, 0) by a matrix. */
 void gni_draw_quad(gni_proofs *p, int x, int y, int width, int height, const float matrix[16], const float color[4]);
 
-/* Rectangles are drawn with another fragment shader from here on: 1, or 0 when the GL refuses it. Its uniforms other than
- * u_color are the caller's to set. */
+/* Rectangles are drawn with another fragment shader from here on: 1, or 0 when the GL refuses it. Its uniforms other
+ * than u_color are the caller's to set. */
 int gni_use_shader(gni_proofs *p, const char *name, const char *defines, const char *fragment);
 GLint gni_uniform(const gni_proofs *p, const char *name);
 void gni_use_own_shader(gni_proofs *p); /* and back; the other one is deleted */

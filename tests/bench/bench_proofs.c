@@ -1,5 +1,5 @@
-/* bench_proofs.c - what it costs to find out what a target can do: calls counted, and, as a remark, the time of the first
- * time, after the driver's own first draw, and of later ones.
+/* bench_proofs.c - what it costs to find out what a target can do: calls counted, and, as a remark, the time of the
+ * first time, after the driver's own first draw, and of later ones.
  *
  *     bench_proofs [PLATFORM]
  *

@@ -1,10 +1,10 @@
-/* bench_stencil.c - what the method stencil costs against z-fail throughout, in counts of one lit frame: draws and vertices of
- * the whole frame, with the host's passes; draws, vertices and fragments of the volumes.
+/* bench_stencil.c - what the method stencil costs against z-fail throughout, in counts of one lit frame: draws and
+ * vertices of the whole frame, with the host's passes; draws, vertices and fragments of the volumes.
  *
  *     bench_stencil [SCENE...]     [all scenes of build/scenes/scenes.txt but the extremes]
  *
- * Writes a CSV, a row for each scene, and as its last rows the medians of the ratios over scenes with four lights and more.
- * Fails when stencil costs more than z-fail anywhere. */
+ * Writes a CSV, a row for each scene, and as its last rows the medians of the ratios over scenes with four lights and
+ * more. Fails when stencil costs more than z-fail anywhere. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* test_bounds.c - what bounds a light, in the plan: nothing that it lights lies outside; what it cannot reach is skipped and
- * the plan says why. */
+/* test_bounds.c - what bounds a light, in the plan: nothing that it lights lies outside; what it cannot reach is
+ * skipped and the plan says why. */
 #include "frame.h"
 #include "gn_matrix.h"
 
@@ -7,23 +7,19 @@
 #include <stdlib.h>
 #include <string.h>
 
-static gn_context *context;
 static test_frame f;
 static uint32_t rng = 99;
 
 static int set_up(void **state)
 {
     (void)state;
-    if (gn_context_create(NULL, &context) != GN_OK)
-        return 1;
-    return test_frame_make(&f, context, NULL, (gn_target)TEST_TARGET(64, 48)) != GN_OK;
+    return test_frame_make(&f, test_context, NULL, (gn_target)TEST_TARGET(64, 48)) != GN_OK;
 }
 
 static int tear_down(void **state)
 {
     (void)state;
     test_frame_drop(&f, NULL);
-    gn_context_destroy(context);
     return 0;
 }
 
@@ -36,8 +32,8 @@ static const gn_plan *plan(void)
         f.memory = malloc(size);
         f.size = size;
     }
-    if (gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan) != GN_OK)
-        fail_msg("%s", gn_message(context));
+    if (gn_plan_make(test_context, &f.scene, f.memory, f.size, &f.plan) != GN_OK)
+        fail_msg("%s", gn_message(test_context));
     return f.plan;
 }
 
@@ -298,7 +294,7 @@ static void floors_cast_where_they_may(void **state)
     test_add_triangle(&m, 0, 2, 1);
     test_add_triangle(&m, 1, 2, 3);
     desc = test_desc(&m);
-    assert_int_equal(gn_mesh_create(context, &desc, &quad), GN_OK);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &quad), GN_OK);
     assert_int_equal(gn_mesh_get_info(quad)->planar, 2);
     f.objects[1].mesh = quad;
     f.objects[1].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN;
@@ -341,7 +337,7 @@ static void soft_lights_are_jittered_and_stay(void **state)
 
         light.kind = (gn_light_kind)kind;
         for (int i = 0; i < 2; i++)
-            assert_int_equal(gn_light_soften(context, &light, 0.5, 32, parts[i]), GN_OK);
+            assert_int_equal(gn_light_soften(test_context, &light, 0.5, 32, parts[i]), GN_OK);
         assert_memory_equal(parts[0], parts[1], sizeof parts[0]);
         for (int i = 0; i < 32; i++) {
             const int is_sun = kind == GN_LIGHT_DIRECTIONAL;
@@ -362,14 +358,14 @@ static void soft_lights_are_jittered_and_stay(void **state)
         }
         assert_true(fabs(color - 4.0) < 1e-9);
     }
-    assert_int_equal(gn_light_soften(context, &light, 0.5, 1, parts[0]), GN_OK); /* one is itself */
+    assert_int_equal(gn_light_soften(test_context, &light, 0.5, 1, parts[0]), GN_OK); /* one is itself */
     assert_memory_equal(&parts[0][0], &light, sizeof light);
-    assert_int_equal(gn_light_soften(context, &light, -1, 4, parts[0]), GN_E_ARG);
-    assert_int_equal(gn_light_soften(context, &light, NAN, 4, parts[0]), GN_E_ARG);
-    assert_int_equal(gn_light_soften(context, &light, 1, 0, parts[0]), GN_E_ARG);
+    assert_int_equal(gn_light_soften(test_context, &light, -1, 4, parts[0]), GN_E_ARG);
+    assert_int_equal(gn_light_soften(test_context, &light, NAN, 4, parts[0]), GN_E_ARG);
+    assert_int_equal(gn_light_soften(test_context, &light, 1, 0, parts[0]), GN_E_ARG);
     memset(light.towards, 0, sizeof light.towards);
     light.kind = GN_LIGHT_DIRECTIONAL;
-    assert_int_equal(gn_light_soften(context, &light, 1, 4, parts[0]), GN_E_ARG);
+    assert_int_equal(gn_light_soften(test_context, &light, 1, 4, parts[0]), GN_E_ARG);
 }
 
 int main(void)
@@ -381,5 +377,5 @@ int main(void)
         cmocka_unit_test_setup_teardown(soft_lights_are_jittered_and_stay, set_up, tear_down),
     };
 
-    return cmocka_run_group_tests_name("bounds", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("bounds", tests, test_open_context, test_close_context);
 }

@@ -6,22 +6,18 @@
 
 #include "gn_matrix.h"
 
-static gn_context *context;
 static test_frame f;
 
 static int set_up(void **state)
 {
     (void)state;
-    if (gn_context_create(NULL, &context) != GN_OK)
-        return 1;
-    return test_frame_make(&f, context, NULL, (gn_target)TEST_TARGET(64, 48)) != GN_OK;
+    return test_frame_make(&f, test_context, NULL, (gn_target)TEST_TARGET(64, 48)) != GN_OK;
 }
 
 static int tear_down(void **state)
 {
     (void)state;
     test_frame_drop(&f, NULL);
-    gn_context_destroy(context);
     return 0;
 }
 
@@ -34,7 +30,7 @@ static gn_result plan(void)
         f.memory = malloc(size);
         f.size = size;
     }
-    return gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan);
+    return gn_plan_make(test_context, &f.scene, f.memory, f.size, &f.plan);
 }
 
 #define HIDE(capability) (f.scene.target.hidden |= 1u << (capability))
@@ -111,7 +107,7 @@ static void the_chain_goes_down_step_by_step(void **state)
     f.scene.target.advertised &= ~(1u << GN_CAN_STENCIL);
     f.scene.target.proven &= ~(1u << GN_CAN_STENCIL);
     assert_int_equal(plan(), GN_E_DEVICE);
-    assert_non_null(strstr(gn_message(context), "stencil, which is not offered"));
+    assert_non_null(strstr(gn_message(test_context), "stencil, which is not offered"));
 }
 
 static void one_sided_may_be_asked_for(void **state)
@@ -179,7 +175,7 @@ static void far_ends_go_down_too(void **state)
     all_end(GN_FAR_CLAMPED);
     HIDE(GN_CAN_DEPTH_CLAMP);
     assert_int_equal(plan(), GN_E_DEVICE);
-    assert_non_null(strstr(gn_message(context), "object 0, light 0: the light touches the object"));
+    assert_non_null(strstr(gn_message(test_context), "object 0, light 0: the light touches the object"));
 }
 
 /* A host's own far plane: volumes end before it; or are clamped, if no plane cuts the caster; or are refused. */
@@ -201,12 +197,12 @@ static void a_finite_far_plane_is_kept_or_refused(void **state)
     HIDE(GN_CAN_DEPTH_CLAMP);
     assert_int_equal(plan(), GN_E_DEVICE);
     assert_non_null(
-        strstr(gn_message(context), "object 0, light 0: no end of the volume lies before the far plane at 40"));
-    assert_non_null(strstr(gn_message(context), "depth-clamp is hidden"));
+        strstr(gn_message(test_context), "object 0, light 0: no end of the volume lies before the far plane at 40"));
+    assert_non_null(strstr(gn_message(test_context), "depth-clamp is hidden"));
     f.scene.target.hidden = 0;
     f.scene.camera.zfar = 8; /* in the middle of the box */
     assert_int_equal(plan(), GN_E_DEVICE);
-    assert_non_null(strstr(gn_message(context), "is no help where a plane of the camera cuts the object"));
+    assert_non_null(strstr(gn_message(test_context), "is no help where a plane of the camera cuts the object"));
     f.scene.camera.zfar = 0;
     assert_int_equal(plan(), GN_E_ARG);
 }
@@ -228,7 +224,7 @@ static void overflow_is_warned_of(void **state)
         m.vertex_count = m.triangle_count = 0;
         test_add_torus(&m, 1.0f, 0.3f, 20, 20);
         desc = test_desc(&m);
-        assert_int_equal(gn_mesh_create(context, &desc, &torus), GN_OK);
+        assert_int_equal(gn_mesh_create(test_context, &desc, &torus), GN_OK);
         f.objects[0].mesh = torus;
         assert_int_equal(plan(), GN_OK);
         assert_int_equal(f.plan->warnings & 1u << GN_WARN_OVERFLOW, 1u << GN_WARN_OVERFLOW);
@@ -252,5 +248,5 @@ int main(void)
         cmocka_unit_test_setup_teardown(a_finite_far_plane_is_kept_or_refused, set_up, tear_down),
     };
 
-    return cmocka_run_group_tests_name("choose", tests, NULL, NULL);
+    return cmocka_run_group_tests_name("choose", tests, test_open_context, test_close_context);
 }

@@ -1,5 +1,5 @@
-/* test_fan.c - dark caps as fans: where there is one the volume is closed, and the fan covers a direction exactly as often as the
- * casting triangles do. */
+/* test_fan.c - dark caps as fans: where there is one the volume is closed, and the fan covers a direction exactly as
+ * often as the casting triangles do. */
 #include "gn_matrix.h"
 #include "gn_test.h"
 #include "gni.h"

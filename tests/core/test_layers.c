@@ -1,5 +1,5 @@
-/* test_layers.c - more layers than bits: what must hold of the bound, of batches and of the pieces in them, whatever mesh and
- * light. */
+/* test_layers.c - more layers than bits: what must hold of the bound, of batches and of the pieces in them, whatever
+ * mesh and light. */
 #include "frame.h"
 #include "gn_matrix.h"
 
@@ -64,8 +64,8 @@ static void make_boxes(test_mesh *m, uint32_t count)
     }
 }
 
-/* Cones of many turns, their triangles dealt out to four pieces so that each meets the others along many edges and takes many of
- * their triangles; and small chains between. */
+/* Cones of many turns, their triangles dealt out to four pieces so that each meets the others along many edges and
+ * takes many of their triangles; and small chains between. */
 static void make_cones(test_mesh *m, uint32_t count)
 {
     enum { BLADES = 266 };
@@ -165,8 +165,8 @@ static uint32_t layers_of(const gn_plan *plan, const gn_record *r, const ray *wa
     return count;
 }
 
-/* The directed edges of a record's triangles cancel: each piece is a closed volume. A directional light's far vertices are
- * one point. */
+/* The directed edges of a record's triangles cancel: each piece is a closed volume. A directional light's far vertices
+ * are one point. */
 static void check_closed(const gn_plan *plan, const gn_record *r, int converging)
 {
     const gn_mesh_info *info = gn_mesh_get_info(plan->objects[r->object].mesh);
@@ -305,7 +305,8 @@ static void no_batch_holds_more_than_it_says(void **state)
     assert_true(several >= 10 && several < runs);
 }
 
-/* Meshes that do not nest are never batched, however many triangles cast: 250 boxes side by side, seen from near and far. */
+/* Meshes that do not nest are never batched, however many triangles cast: 250 boxes side by side, seen from near and
+ * far. */
 static void what_does_not_nest_is_in_one_batch(void **state)
 {
     static test_mesh m;

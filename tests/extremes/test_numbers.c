@@ -1,5 +1,6 @@
-/* test_numbers.c - NaN, infinities, the greatest and the smallest numbers in every argument of every public function that takes
- * numbers: an error code with a sentence, or a result in which every number is one. Run it under the sanitizers. */
+/* test_numbers.c - NaN, infinities, the greatest and the smallest numbers in every argument of every public function
+ * that takes numbers: an error code with a sentence, or a result in which every number is one. Run it under the
+ * sanitizers. */
 #include "frame.h"
 #include "gn_matrix.h"
 

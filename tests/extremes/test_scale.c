@@ -1,5 +1,5 @@
-/* test_scale.c - invariance: a scene scaled by a power of two has the same masks to the last bit; scaled by powers of ten, or
- * moved a hundred thousand from the origin, the same certain pixels. llvmpipe. */
+/* test_scale.c - invariance: a scene scaled by a power of two has the same masks to the last bit; scaled by powers of
+ * ten, or moved a hundred thousand from the origin, the same certain pixels. llvmpipe. */
 #include "gn_test.h"
 #include "stage.h"
 #include "truth.h"

@@ -1,5 +1,5 @@
-/* test_bounds.c - bounded lights: from random places, the frame by `stencil`, which leaves out all that a light cannot reach, is
- * the frame by z-fail, which leaves out nothing; and it never costs more. llvmpipe. */
+/* test_bounds.c - bounded lights: from random places, the frame by `stencil`, which leaves out all that a light cannot
+ * reach, is the frame by z-fail, which leaves out nothing; and it never costs more. llvmpipe. */
 #include "counted_gl.h"
 #include "gn_matrix.h"
 #include "gn_test.h"
@@ -148,7 +148,8 @@ static void unimportant_lights_cost_what_is_said(void **state)
     scene_free(&loaded);
 }
 
-/* Coincident surfaces: lit once by choice, the frame is that of the scene without the second ones; else light adds up. */
+/* Coincident surfaces: lit once by choice, the frame is that of the scene without the second ones; else light adds
+ * up. */
 static void coincident_surfaces_are_lit_once(void **state)
 {
     const stage_options options = {

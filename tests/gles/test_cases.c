@@ -1,6 +1,6 @@
 /* test_cases.c - McGuire's cases against z-fail throughout: from random places in and around every scene, in and near
- * volumes, the masks have the same bits; every case comes up; and the counts are never higher. llvmpipe: a rasteriser that
- * is not watertight counts differently before and behind what is seen. */
+ * volumes, the masks have the same bits; every case comes up; and the counts are never higher. llvmpipe: a rasteriser
+ * that is not watertight counts differently before and behind what is seen. */
 #include "gn_matrix.h"
 #include "gn_test.h"
 #include "stage.h"

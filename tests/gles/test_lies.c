@@ -1,5 +1,5 @@
-/* test_lies.c - a real driver behind a function table that lies, one lie at a time: the proof finds it out and says what
- * it saw, and the frame has the same bits as the truthful driver's all the same, or is refused in words. */
+/* test_lies.c - a real driver behind a function table that lies, one lie at a time: the proof finds it out and says
+ * what it saw, and the frame has the same bits as the truthful driver's all the same, or is refused in words. */
 #include "between.h"
 #include "gn_test.h"
 #include "stage.h"

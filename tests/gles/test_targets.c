@@ -1,5 +1,5 @@
-/* test_targets.c - targets other than a window of 8 bits a channel: what each is said to be able to do, and that what was
- * proven once can be given back. */
+/* test_targets.c - targets other than a window of 8 bits a channel: what each is said to be able to do, and that what
+ * was proven once can be given back. */
 #include "gn_test.h"
 #include "gnomon_gles.h"
 #include "platform.h"
@@ -314,7 +314,8 @@ static void hiding_and_saving_go_together(void **state)
     close_it(NULL);
 }
 
-/* What could not be tried for want of something hidden is tried once that is there again, on a target without it too. */
+/* What could not be tried for want of something hidden is tried once that is there again, on a target without it
+ * too. */
 static void what_was_not_tried_is_not_kept(void **state)
 {
     gn_target t;

@@ -112,8 +112,8 @@ static size_t walk_and_count(const gn_plan *plan)
     return count;
 }
 
-/* A light that nothing in view is reached by makes no call at all; one with bounds a scissor, and depth bounds where they
- * are proven and not hidden. */
+/* A light that nothing in view is reached by makes no call at all; one with bounds a scissor, and depth bounds where
+ * they are proven and not hidden. */
 static void bounds_cost_what_they_must(void **state)
 {
     static const gn_light lamp = {.kind = GN_LIGHT_POINT, .position = {3, 1.5, 0}, .range = 2.5};

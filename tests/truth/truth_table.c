@@ -3,13 +3,13 @@
  *     truth_table [--size WxH] [--drivers LIST] [--depth BITS] [--extremes] [--pixels] SCENES_DIR [SCENE...]
  *
  * A row for each scene, driver, light and way: z-fail and z-pass as the driver can; z-fail with capabilities hidden,
- * which must be the same bits (one-sided, saturating, both; and stencil by McGuire's cases) or as right (ended; under a far plane of the camera's own
- * finite, finite-end; unless refused).
+ * which must be the same bits (one-sided, saturating, both; and stencil by McGuire's cases) or as right (ended; under a
+ * far plane of the camera's own finite, finite-end; unless refused).
  *
  * SCENES_DIR holds the .gltf files and scenes.txt, which says of each scene whether z-pass is right there (zpass,
  * nozpass) and whether a slow rasteriser draws it (small, large) or it is one of the extremes, which --extremes draws
- * instead of the others: by z-fail and stencil, on every driver. --depth asks for as many bits of depth: where the plan warns
- * that they are too few, wrong pixels are no failure. Drivers: llvmpipe and softpipe through EGL, osmesa,
+ * instead of the others: by z-fail and stencil, on every driver. --depth asks for as many bits of depth: where the plan
+ * warns that they are too few, wrong pixels are no failure. Drivers: llvmpipe and softpipe through EGL, osmesa,
  * and zink over SwiftShader where Debian's chromium-common is installed; softpipe takes small scenes.
  *
  * A rasteriser that draws a shared edge twice, or not at all, at some pixel cannot count volumes there (Everitt 2002,

@@ -21,7 +21,8 @@ static void *counting_resize(void *user, void *block, size_t old_size, size_t ne
     return libc_port.resize(NULL, block, old_size, new_size);
 }
 
-/* The most of a light that any material gives back, as surface.frag computes it: all channels white, seen at the best angle. */
+/* The most of a light that any material gives back, as surface.frag computes it: all channels white, seen at the best
+ * angle. */
 static double find_brightest(const scene *s)
 {
     double most = 1.0;
@@ -260,8 +261,8 @@ static int eye_may_be_inside(const gn_camera *camera, const gn_object *object)
     return 1;
 }
 
-/* Backs are drawn of what is double-sided throughout. Those of what is closed, wound outward and seen from outside may be
- * drawn unseen: once, after the fronts, instead of a light cap for each light. */
+/* Backs are drawn of what is double-sided throughout. Those of what is closed, wound outward and seen from outside may
+ * be drawn unseen: once, after the fronts, instead of a light cap for each light. */
 static unsigned flags_of(const stage *s, const scene_instance *instance, const gn_camera *camera,
                          const gn_object *object, const stage_wish *wish)
 {
