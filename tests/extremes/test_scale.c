@@ -11,9 +11,9 @@
 
 enum { WIDTH = 96, HEIGHT = 72, PIXELS = WIDTH * HEIGHT };
 
-static const char *const scenes[] = {"cube_point",  "colours",          "ortho", "ortho_container", "soup",
-                                     "room_eye_in", "near_cuts_volume", "zfar",  "transforms",      "flat_light",
-                                     "hole",        "open_container"};
+static const char *const scenes[] = {"cube_point",  "colours",          "ortho",    "ortho_container", "soup",
+                                     "room_eye_in", "near_cuts_volume", "zfar",     "transforms",      "flat_light",
+                                     "hole",        "open_container",   "courtyard"};
 
 /* The posed scene in another unit of length, at another place. */
 static void place(stage *s, double scale, double x)
