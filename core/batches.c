@@ -3,8 +3,8 @@
  * A count of n bits that wraps tells 2^n - 1 volumes from none; 256 around a point look like none. Whether so many can
  * lie around one is asked in steps, each dearer than the one before: how many triangles cast at all; half the number of
  * silhouette edges, since as the light sees it a line over a point with L layers crosses L of them on its way in and L
- * on its way out; boxes in cells of light space; triangles and silhouettes in those; and at last in parts of cells.
- * Most scenes end at the first or second.
+ * on its way out; the same for a line swept over light space (sweep.c); boxes in cells of light space; triangles and
+ * silhouettes in those; and at last in parts of cells. Most scenes end at the first three.
  *
  * Where they do not, one bit becomes a flag and the rest counts in batches; between two batches what is counted is
  * folded into the flag (DESIGN.md, decision 10). A caster that alone is too much is cut into chains: triangles that
@@ -340,14 +340,20 @@ static uint32_t zoom_in(gni_draft *d, uint32_t limit)
     return most;
 }
 
-/* What is known cheaply; then boxes in cells; then triangles; and where these are too many, a closer look. */
-int gni_layers_fit(gni_draft *d, uint32_t limit)
+/* What is known cheaply; then silhouettes; then boxes in cells; then triangles; and where these are too many, a closer
+ * look. */
+int gni_layers_fit(gni_draft *d, uint32_t limit, uint32_t first_record)
 {
     gni_layers *l = d->layers;
     gn_plan_light *about = &d->lights[d->light];
+    const uint32_t swept = about->layers <= limit ? 0 : gni_sweep_layers(d, first_record);
 
     if (about->layers <= limit)
         return 1;
+    if (swept <= limit) {
+        about->layers = swept;
+        return 1;
+    }
     gni_fit_cells(&l->cells, d->boxes, d->is_in, d->scene->object_count, d->bounds.light);
     memset(&l->batch, 0, sizeof l->batch);
     for (uint32_t i = 0; i < d->scene->object_count; i++)

@@ -21,6 +21,8 @@ typedef struct gni_grid {
     uint16_t layers[GNI_CELLS];
 } gni_grid;
 
+#define GNI_BINS 4096 /* of sweep.c */
+
 #define GNI_MOST_ZOOMS 32 /* each costs as much as a look at all cells */
 
 /* Around the boxes that is_in says may cast, as seen from the light. */
@@ -42,6 +44,7 @@ void gni_add_grid(const gni_cells *cells, gni_grid *to, const gni_grid *grid);
 typedef struct gni_layers {
     gni_cells cells;
     gni_grid batch, piece, scratch, zoomed; /* what is counted since the last fold; the piece at hand */
+    int32_t bins[GNI_BINS + 1];             /* sweep.c */
 } gni_layers;
 
 /* Where the stencil may differ from the reference: x0, y0, x1, y1; nowhere where x0 is not less than x1. */
@@ -118,10 +121,13 @@ gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand)
  * GNI_NONE where no sides are drawn. */
 uint32_t gni_add_records(gni_draft *d, const gni_volume *volume, const int8_t *casting);
 
+/* sweep.c: no point has more layers of the records from first_record on than this; UINT32_MAX where that is not known. */
+uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record);
+
 /* batches.c: the same, cut so that each piece keeps within the bits, and folded before the batch would not. */
 void gni_add_batched(gni_draft *d, const gni_volume *volume, const int8_t *casting);
-/* Whether the light's casters, all with their records made, surely keep within `limit` layers. */
-int gni_layers_fit(gni_draft *d, uint32_t limit);
+/* Whether the light's casters, all with their records made from first_record on, surely keep within `limit` layers. */
+int gni_layers_fit(gni_draft *d, uint32_t limit, uint32_t first_record);
 /* Ends a batch: its step of volumes, and one that folds it if more follows. */
 void gni_end_batch(gni_draft *d, int more_follows);
 /* At most so many pieces of a caster with so many ends. */

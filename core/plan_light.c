@@ -163,7 +163,7 @@ static gn_result add_volumes(gni_draft *d)
     result = add_casters(d);
     is_long = !about->stencil.wrap && d->casting_count > (uint64_t)about->stencil.high;
     about->layers = (uint32_t)(d->cheap_layers < UINT32_MAX ? d->cheap_layers : UINT32_MAX);
-    if (result == GN_OK && d->layers && !gni_layers_fit(d, (uint32_t)about->stencil.high)) {
+    if (result == GN_OK && d->layers && !gni_layers_fit(d, (uint32_t)about->stencil.high, before.record_count)) {
         *d->plan = before;
         d->stain = stain;
         gni_split_layout(&about->stencil);

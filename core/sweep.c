@@ -1,0 +1,148 @@
+/* sweep.c - a bound on layers from the silhouettes alone: a line swept over light space.
+ *
+ * A line over a point with L layers crosses L silhouette edges on its way in and L on its way out. So nowhere are there
+ * more layers than half the weights that one line of a set crosses. The lines are those of a plane before the light along
+ * which one coordinate is constant, in bins; an edge adds its weight to all bins that it touches. That takes a few
+ * dozen instructions a silhouette edge, and mostly spares the question of cells.c, which looks at triangles. All casters
+ * must lie before the plane through the light: one sun, or a lamp above a floor; for a lamp among casters there is no
+ * answer here. */
+#include "gni_plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#define PASSES 64
+#define ROOM   0.01 /* of a corner's distance: so far before the plane through the light it must lie */
+#define LOOSE  1e-3 /* of a bin: rounding stays inside */
+
+/* A point of view space is at dot(along, p) / dot(depth, p) of the line of bins, 0 to GNI_BINS. */
+typedef struct bins {
+    double along[4], depth[4];
+} bins;
+
+static int is_caster(const gni_draft *d, uint32_t object)
+{
+    return d->is_in[object] & GNI_IN_CAST;
+}
+
+/* A direction from the light before which all casters lie: their mean one, turned towards any corner that lies behind
+ * until none does (the perceptron: it ends where there is such a direction with room to spare). */
+static int find_axis(const gni_draft *d, double axis[3])
+{
+    const double *light = d->bounds.light;
+
+    for (int k = 0; k < 3; k++)
+        axis[k] = light[3] == 0.0 ? -light[k] : 0.0;
+    for (int pass = 0; pass < PASSES && light[3] != 0.0; pass++) {
+        int turned = 0;
+
+        for (uint32_t i = 0; i < d->scene->object_count; i++)
+            for (int corner = 0; corner < 8 && is_caster(d, i); corner++) {
+                double v[3], length;
+
+                for (int k = 0; k < 3; k++)
+                    v[k] = d->boxes[i].points[corner][k] - light[k];
+                length = sqrt(gni_dot(v, v));
+                if (pass > 0 && gni_dot(axis, v) > ROOM * length * sqrt(gni_dot(axis, axis)))
+                    continue;
+                turned = 1;
+                for (int k = 0; k < 3 && length > 0.0; k++)
+                    axis[k] += v[k] / length;
+            }
+        if (!turned)
+            return 1;
+    }
+    return light[3] == 0.0;
+}
+
+static int fit_bins(const gni_draft *d, bins *b)
+{
+    const double *light = d->bounds.light;
+    double axis[3], axes[3][3], low = INFINITY, high = -INFINITY;
+
+    if (!find_axis(d, axis) || !(gni_dot(axis, axis) > 0.0))
+        return 0;
+    gni_make_axes(axes, axis);
+    for (uint32_t i = 0; i < d->scene->object_count; i++)
+        for (int corner = 0; corner < 8 && is_caster(d, i); corner++) {
+            double v[3], depth;
+
+            for (int k = 0; k < 3; k++)
+                v[k] = d->boxes[i].points[corner][k] - light[k] * light[3];
+            depth = light[3] == 0.0 ? 1.0 : gni_dot(axes[2], v);
+            low = fmin(low, gni_dot(axes[0], v) / depth);
+            high = fmax(high, gni_dot(axes[0], v) / depth);
+        }
+    if (!(high > low))
+        return 0;
+    for (int k = 0; k < 3; k++) {
+        b->depth[k] = light[3] == 0.0 ? 0.0 : axes[2][k];
+        b->along[k] = axes[0][k];
+    }
+    b->depth[3] = light[3] == 0.0 ? 1.0 : -gni_dot(axes[2], light);
+    b->along[3] = light[3] == 0.0 ? 0.0 : -gni_dot(axes[0], light);
+    for (int k = 0; k < 4; k++)
+        b->along[k] = (b->along[k] - low * b->depth[k]) * (GNI_BINS / (high - low));
+    return 1;
+}
+
+static double at_vertex(const bins *b, const float p[3])
+{
+    const double v[3] = {(double)p[0], (double)p[1], (double)p[2]};
+    const double depth = gni_dot(b->depth, v) + b->depth[3];
+
+    return depth > 0.0 ? (gni_dot(b->along, v) + b->along[3]) / depth : NAN;
+}
+
+static void row_by_matrix(double row[4], const double m[16])
+{
+    double out[4];
+
+    for (int i = 0; i < 4; i++)
+        out[i] = gni_dot(row, m + 4 * i) + (i == 3 ? row[3] : 0.0);
+    memcpy(row, out, sizeof out);
+}
+
+/* Adds the silhouette of a record to the differences between bins. 0 where an end has no place among them. */
+static int add_sides(const gni_draft *d, const gn_record *r, const bins *in_view, int32_t differences[GNI_BINS + 1])
+{
+    const gn_object *object = &d->scene->objects[r->object];
+    const gn_mesh *mesh = object->mesh;
+    const uint32_t *vertices = mesh->chunk_vertices + mesh->chunks[r->chunk].first_vertex;
+    const uint32_t a_side = r->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? 3 : 6;
+    double model_view[16];
+    bins b = *in_view;
+
+    gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
+    row_by_matrix(b.along, model_view);
+    row_by_matrix(b.depth, model_view);
+    for (uint32_t i = 0; i < r->side_count; i += a_side) {
+        const uint16_t *side = d->indices + r->first_index + i; /* its first two are its near vertices */
+        const double x = at_vertex(&b, mesh->positions + 3 * (size_t)vertices[side[0] / 2u]);
+        const double y = at_vertex(&b, mesh->positions + 3 * (size_t)vertices[side[1] / 2u]);
+
+        if (!(x >= -1.0 && x <= GNI_BINS + 1.0 && y >= -1.0 && y <= GNI_BINS + 1.0))
+            return 0;
+        differences[(int)fmax((x < y ? x : y) - LOOSE, 0.0)]++;
+        differences[(int)fmin((x < y ? y : x) + LOOSE, GNI_BINS - 1.0) + 1]--;
+    }
+    return 1;
+}
+
+uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record)
+{
+    int32_t *const differences = d->layers->bins, crossed = 0, most = 0;
+    bins b;
+
+    if (!fit_bins(d, &b))
+        return UINT32_MAX;
+    memset(d->layers->bins, 0, sizeof d->layers->bins);
+    for (uint32_t i = first_record; i < d->plan->record_count; i++)
+        if (!add_sides(d, &d->records[i], &b, differences))
+            return UINT32_MAX;
+    for (int i = 0; i < GNI_BINS; i++) {
+        crossed += differences[i];
+        most = crossed > most ? crossed : most;
+    }
+    return (uint32_t)most / 2;
+}
