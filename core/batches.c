@@ -80,6 +80,7 @@ static void emit(const cutter *c)
     gni_draft *d = c->d;
     gni_layers *l = d->layers;
     gn_plan_light *about = &d->lights[d->light];
+    gni_volume piece = *c->volume;
     uint32_t most;
 
     if (gni_most_layers(&l->cells, &l->batch, &l->piece) > c->limit) {
@@ -89,7 +90,8 @@ static void emit(const cutter *c)
     gni_add_grid(&l->cells, &l->batch, &l->piece);
     most = gni_most_layers(&l->cells, &l->batch, NULL);
     about->layers = about->layers > most ? about->layers : most;
-    gni_add_records(d, c->volume, d->piece);
+    piece.triangles = gni_count_casting(c->mesh, d->piece);
+    gni_add_records(d, &piece, d->piece);
 }
 
 /* Copies list[count] to ring[] and adds, marked, the neighbours beyond edges where two triangles cancel; of the same
@@ -354,6 +356,8 @@ int gni_layers_fit(gni_draft *d, uint32_t limit, uint32_t first_record)
         about->layers = swept;
         return 1;
     }
+    if (d->uses_patches) /* what follows does not know them */
+        return 0;
     gni_fit_cells(&l->cells, d->boxes, d->is_in, d->scene->object_count, d->bounds.light);
     memset(&l->batch, 0, sizeof l->batch);
     for (uint32_t i = 0; i < d->scene->object_count; i++)

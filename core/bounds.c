@@ -88,7 +88,7 @@ static void hold_corner(patch *p, const double c[4])
 static patch project_hull(const gni_hull *h, const gn_camera *camera)
 {
     const int count = h->point_count + h->direction_count;
-    double corners[17][4], above[17];
+    double corners[GNI_HULL_POINTS + 8][4], above[GNI_HULL_POINTS + 8];
     patch p = nothing;
 
     for (int i = 0; i < count; i++) {
@@ -249,22 +249,37 @@ static void add_cone(gni_bounds *b, const gni_hull *cone)
     b->caster_planes = b->plane_count;
 }
 
-/* Pixels whose centres may lie in the patch, and one more on each side. */
-static void find_scissor(gni_bounds *b, const patch *p, const gn_camera *camera, const gn_target *target)
+/* Pixels whose centres may lie in the patch, and one more on each side. 0 when there is none. */
+static int find_pixels(uint32_t out[4], const patch *p, const gn_camera *camera, const gn_target *target)
 {
     const double low[2] = {camera->left, camera->bottom}, high[2] = {camera->right, camera->top};
     const uint32_t size[2] = {target->width, target->height};
+    int any = 1;
 
     for (int i = 0; i < 2; i++) {
         const double scale = size[i] / (high[i] - low[i]);
         const double first = floor((p->low[i] - low[i]) * scale) - 1.0, end = ceil((p->high[i] - low[i]) * scale) + 1.0;
         const double from = fmin(fmax(first, 0.0), size[i]), to = fmin(fmax(end, 0.0), size[i]);
 
-        b->scissor[i] = (uint32_t)from;
-        b->scissor[2 + i] = (uint32_t)fmax(to - from, 0.0);
-        if (!(p->low[i] <= p->high[i]) || to <= from)
-            b->skip = GN_SKIP_OUT_OF_VIEW;
+        out[i] = (uint32_t)from;
+        out[2 + i] = (uint32_t)fmax(to - from, 0.0);
+        any &= p->low[i] <= p->high[i] && to > from;
     }
+    return any;
+}
+
+void gni_find_rectangle(uint32_t out[4], const gni_hull *hull, const gn_camera *camera, const gn_target *target)
+{
+    const patch p = project_hull(hull, camera);
+
+    if (!find_pixels(out, &p, camera, target))
+        memset(out, 0, 4 * sizeof *out);
+}
+
+static void find_scissor(gni_bounds *b, const patch *p, const gn_camera *camera, const gn_target *target)
+{
+    if (!find_pixels(b->scissor, p, camera, target))
+        b->skip = GN_SKIP_OUT_OF_VIEW;
     b->distances[0] = fmax(p->nearest, camera->znear);
     b->distances[1] = p->farthest;
     if (!(b->distances[0] <= b->distances[1]) || (camera->zfar != 0.0 && b->distances[0] > camera->zfar))

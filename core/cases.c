@@ -8,9 +8,9 @@
  *
  * A part of a volume that lies outside one plane of the view touches no pixel and is left out. Far corners are the
  * directions from the light through the box's corners, whatever the volume's real end: what is nearer than infinity
- * lies between corner and direction.
+ * lies between corner and direction. Where the end is known (extent.c) they are its corners.
  *
- * The view is that of a light's scissor: near rectangle and planes are narrowed to it (McGuire 2003, line 7). */
+ * The view is that of the scissor: near rectangle and planes are narrowed to it (McGuire 2003, line 7). */
 #include "gni.h"
 
 #include <math.h>
@@ -103,9 +103,13 @@ static int pyramid_misses(const gni_view *view, const double light[4], const gni
 void gni_find_case(gni_case *out, const gni_view *view, const gni_hull *box, const gni_hull *volume,
                    const double light[4])
 {
-    gni_hull image = *volume; /* at infinity: directions alone */
+    gni_hull image = *volume; /* of the end: at infinity directions alone */
 
     image.point_count = 0;
+    if (volume->direction_count == 0) {
+        image.point_count = volume->point_count - box->point_count;
+        memcpy(image.points, volume->points + box->point_count, (size_t)image.point_count * sizeof image.points[0]);
+    }
     out->is_drawn = 0;
     out->seen = (gni_may_be_seen(view, box) ? GNI_SEES_CASTER : 0u) |
                 (gni_may_be_seen(view, &image) ? GNI_SEES_FAR : 0u) |

@@ -43,9 +43,18 @@ static void choose_layout(const gn_scene *s, gni_choice *choice)
     layout->low = layout->wrap ? 0 : -MIDDLE;
     layout->high = layout->wrap ? 255 : 255 - MIDDLE;
     layout->bits = 8;
+    layout->mask = 255;
     if (!layout->wrap)
         gni_put(&choice->text, "; counts from %d to %d about %d, since %s %s", layout->low, layout->high,
                 layout->reference, gn_capability_name(GN_CAN_STENCIL_WRAP), gni_why_not(t, GN_CAN_STENCIL_WRAP));
+}
+
+void gni_patch_layout(gn_stencil_layout *layout, uint32_t patch_count)
+{
+    layout->patch_bits = patch_count > 1 ? 2 : 1;
+    layout->bits -= layout->patch_bits;
+    layout->mask = (1 << layout->bits) - 1;
+    layout->high = layout->mask;
 }
 
 void gni_split_layout(gn_stencil_layout *layout)

@@ -39,6 +39,7 @@ struct gn_mesh {
     uint32_t
         *edge_of; /* [triangle_count][3]: the edge from each corner to the next; GNI_NONE of degenerate triangles */
     uint32_t *chunk_edges; /* [chunk_count + 1]: where a chunk's edges start */
+    uint32_t largest;      /* the triangle of the largest area */
     gni_part *parts;
     uint32_t *part_triangles; /* sorted by part; degenerate triangles are in none */
     uint32_t part_triangle_count;
@@ -104,24 +105,21 @@ static inline void gni_vertex(double out[3], const gn_mesh *mesh, uint32_t verte
     gn_mat4_transform(out, matrix, given, 1.0);
 }
 
-/* volume.c: the index stream of one chunk of a volume. */
-typedef struct gni_stream {
-    uint32_t sides, dark_cap, light_cap, turned_cap; /* indices of each, in this order */
-} gni_stream;
+/* volume.c: the index stream of one chunk of a volume, piece by piece. Each returns the indices written. */
 
-/* At most this many indices for a triangle: three sides of two triangles each, and both caps. */
-#define GNI_MOST_INDICES 24u
+/* At most this many indices for a triangle: three sides of two triangles each, both caps, and a cap on a patch; where
+ * caps are fans, over no more edges than triangles or of closed meshes, they have fewer sides. */
+#define GNI_MOST_INDICES 27u
 
-enum {
-    GNI_CONVERGING =
-        8,       /* beside GN_SIDES ...: all far vertices are one point (a directional light to infinity): sides are
-                           single triangles and the dark cap has no area */
-    GNI_FAN = 16 /* the dark cap is a fan about the far vertex `apex`: of a mesh of one chunk */
-};
-
-/* Returns the indices written. */
-uint32_t gni_volume_indices(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, unsigned parts, uint32_t apex,
-                            uint16_t *out, gni_stream *stream);
+/* converging: all far vertices are one point (a directional light to infinity): sides are single triangles and the dark
+ * cap has no area. */
+uint32_t gni_put_sides(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, int converging, uint16_t *out);
+/* sides: as written, of_a_side indices each; out may be the same. */
+uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
+                     uint16_t *out);
+uint32_t gni_put_dark_cap(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, uint16_t *out);
+/* Of the triangles whose casting is `turn`. */
+uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, int8_t turn, uint16_t *out);
 
 /* camera.c */
 gn_result gni_check_camera(gn_context *context, const gn_camera *camera);
@@ -165,6 +163,8 @@ typedef struct gni_choice {
     gni_text text;    /* into it */
 } gni_choice;
 
+/* Counts of wrapping bits, and above them as many as name a patch. */
+void gni_patch_layout(gn_stencil_layout *layout, uint32_t patch_count);
 /* Counts of one bit less, and a flag above them. */
 void gni_split_layout(gn_stencil_layout *layout);
 /* The method that is meant and its way here. GN_E_DEVICE when the target lacks what it needs. */
@@ -181,8 +181,10 @@ const char *gni_skip_name(gn_skip skip);
 #define GNI_MARGIN                                                                                                     \
     1e-6 /* of the greatest coordinate: double precision leaves a wide gap to it, float and pixels a small one */
 
+#define GNI_HULL_POINTS 16 /* a box and its end */
+
 typedef struct gni_hull {
-    double points[9][3];
+    double points[GNI_HULL_POINTS][3];
     int point_count;
     double directions[8][3]; /* in which it goes on without end */
     int direction_count;
@@ -195,6 +197,8 @@ double gni_dot(const double a[3], const double b[3]);
 void gni_make_axes(double axes[3][3], const double axis[3]);
 /* The box around a mesh, in view space. */
 void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16]);
+/* Centre and radius of the ball around a box. */
+void gni_find_ball(double out[4], const gni_hull *box);
 /* A box along view space's axes. */
 void gni_hull_around(gni_hull *out, const double low[3], const double high[3]);
 /* The box and all that is behind it as the light sees it. */
@@ -205,12 +209,16 @@ int gni_separates(const double axis[3], const gni_hull *a, const gni_hull *b);
 int gni_volume_misses(const gni_hull *volume, const double light[4], const gni_hull *box);
 /* Whether all of it lies where the plane is negative. */
 int gni_is_outside(const gni_hull *hull, const double plane[4]);
+/* Whether all of a body without directions lies where the plane is positive, or as good as 0: in doubt 1; in doubt
+ * 0. */
+int gni_lies_before(const gni_hull *hull, const double plane[4]);
+int gni_is_before(const gni_hull *hull, const double plane[4]);
 int gni_light_is_outside(const gni_hull *box, const double light[4]);
 
-/* fan.c: a welded vertex about which the dark cap may be a fan that covers no pixel more than the cap would; GNI_NONE
- * where there is none. light: view space, outside the caster's box. */
-uint32_t gni_find_apex(const gn_mesh *mesh, const int8_t *casting, const double model_view[16], const double light[4],
-                       const gni_hull *box);
+/* fan.c: whether all sides run round the hub the same way as the light sees them. light: view space, outside the
+ * caster's box, not directional. */
+int gni_runs_round_hub(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
+                       const double model_view[16], const double light[4]);
 
 /* cases.c: how a caster is counted. */
 typedef struct gni_view {
@@ -229,7 +237,8 @@ typedef struct gni_case {
 /* What is seen through the scissor. */
 void gni_make_view(gni_view *view, const gn_camera *camera, const gn_target *target, const uint32_t scissor[4]);
 int gni_may_be_seen(const gni_view *view, const gni_hull *hull);
-/* light: view space. Conservative in all: what is not sure touches, or is seen. */
+/* volume: without end, or a box and its end. light: view space. Conservative in all: what is not sure touches, or is
+ * seen. */
 void gni_find_case(gni_case *out, const gni_view *view, const gni_hull *box, const gni_hull *volume,
                    const double light[4]);
 
@@ -246,6 +255,8 @@ typedef struct gni_bounds {
     gn_skip skip;        /* GN_SKIP_OUT_OF_VIEW, GN_SKIP_FAINT or GN_SKIP_NOT */
 } gni_bounds;
 
+/* Pixels in which the body may be seen, and one more on each side: x, y, width, height; all 0 for none. */
+void gni_find_rectangle(uint32_t out[4], const gni_hull *hull, const gn_camera *camera, const gn_target *target);
 /* Of a light that no bound is known of, or asked for. */
 void gni_no_bounds(gni_bounds *out, const gn_scene *scene, const double light[4]);
 /* view: from world to view space. */

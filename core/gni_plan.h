@@ -53,6 +53,27 @@ typedef struct gni_stain {
     int reference;
 } gni_stain;
 
+/* patches.c: flat receivers of one plane. */
+typedef enum gni_patch_use {
+    GNI_PATCH_NONE, /* as good as in the light's plane: volumes cover it */
+    GNI_PATCH_LIT,  /* light and eye are on the same side */
+    GNI_PATCH_DARK  /* they are not */
+} gni_patch_use;
+
+typedef struct gni_patch {
+    double plane[4]; /* view space, unit normal, positive where the eye is */
+    uint32_t rectangle[4];
+    double of_light; /* the plane's value of the light at hand */
+    gni_patch_use use;
+} gni_patch;
+
+/* What a caster does to a patch in a light. */
+typedef enum gni_on_patch {
+    GNI_FILLS_PATCH, /* its volume must cover it */
+    GNI_SPARES_PATCH,
+    GNI_FANS_PATCH /* its projection is its shadow there */
+} gni_on_patch;
+
 /* A plan while it is made. */
 typedef struct gni_draft {
     gn_context *context;
@@ -65,7 +86,15 @@ typedef struct gni_draft {
     gn_plan_object *objects;
     gn_plan_caster *casters;
     gni_hull *boxes;         /* [object_count] of objects, in view space */
+    double (*balls)[4];        /* [object_count] centre and radius of a ball around each */
+    uint32_t (*rectangles)[4]; /* [object_count] pixels in which they may be seen */
     uint8_t *is_in;          /* [object_count] of the light at hand: GNI_IN_* */
+    double (*heights)[GN_MOST_PATCHES][2]; /* [object_count] over each patch; NAN: not known yet */
+    gni_patch patches[GN_MOST_PATCHES];
+    uint32_t patch_count;
+    int are_marked;            /* patches, in the stencil as it is now */
+    gn_record *flats;          /* fans on patches, until the light's volumes are all made */
+    uint32_t flat_count;
     gni_hull all_lit;        /* a box around all that receives and is lit by it */
     int8_t *casting, *group; /* of the caster at hand; group: those of one volume of it */
     uint8_t *end_of;
@@ -84,7 +113,7 @@ typedef struct gni_draft {
     uint32_t light;
     gni_bounds bounds;
     gni_view seen; /* through its scissor */
-    int is_batched;
+    int is_batched, uses_patches;
     uint32_t first_of_batch; /* record */
     uint64_t casting_count, cheap_layers;
 } gni_draft;
@@ -100,23 +129,73 @@ gn_result gni_add_light(gni_draft *d, uint32_t light);
 /* Homogeneous, in view space, the eye subtracted first. */
 void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4]);
 
+void gni_join_rectangles(uint32_t a[4], const uint32_t b[4]);
+void gni_meet_rectangles(uint32_t a[4], const uint32_t b[4]);
+int gni_do_rectangles_meet(const uint32_t a[4], const uint32_t b[4]);
+
+/* extent.c: how far the volume of a caster goes, and where that matters. */
+#define GNI_NORMALS 4 /* of planes that may end it */
+
+typedef struct gni_extent {
+    gni_on_patch on[GN_MOST_PATCHES];    /* of each patch of the frame */
+    uint32_t shadow[GN_MOST_PATCHES][4]; /* where a fan is seen */
+    int is_ended;
+    double end_plane[4]; /* view space, positive where the caster is */
+    uint32_t scissor[4]; /* pixels where it must be counted */
+
+    /* while it is found */
+    double normals[GNI_NORMALS][3], lowest[GNI_NORMALS]; /* of what is touched, along the normals */
+    double deepest, greatest;                            /* view distance and coordinate of what is touched */
+    uint32_t touched, needed[4];                         /* how many, and the pixels of their images */
+} gni_extent;
+
+/* box: of the caster. */
+void gni_start_extent(gni_extent *e, const gni_draft *d, const gni_hull *box);
+/* The volume may shadow something in this box, seen in these pixels. */
+void gni_touch(gni_extent *e, const gni_hull *box, const uint32_t rectangle[4]);
+/* Chooses end and scissor. volume: on entry without end; becomes what is drawn. Returns 0 when nothing is seen of
+ * what it may shadow. */
+int gni_end_extent(gni_extent *e, const gni_draft *d, const gni_hull *box, gni_hull *volume);
+
+/* patches.c */
+void gni_find_patches(gni_draft *d);
+/* What they are to the light at hand. */
+void gni_light_patches(gni_draft *d);
+/* rectangle: where the fan is seen. */
+gni_on_patch gni_cast_on_patch(const gni_draft *d, uint32_t object, const gni_patch *patch, uint32_t rectangle[4]);
+/* The plane of a planar mesh in view space, its normal of unit length; 0 when it has none. */
+int gni_plane_in_view(const gn_object *object, const gn_camera *camera, double plane[4]);
+/* On which side of it the eye is: the sign. */
+double gni_eye_side(const gn_camera *camera, const double plane[4]);
+/* Whether all of a planar object is drawn as seen from a side of plane_in_view(). */
+int gni_shows_side(const gn_object *object, int mirrored, double of_eye);
+
 /* receivers.c: for a flat caster, its plane in view space, positive where the light is, if the eye is there too and all
  * of the caster is drawn; else 0. */
 int gni_lit_side(const gni_draft *d, uint32_t object, double plane[4]);
-/* Whether the volume may touch something that receives, is seen and lit. plane: of gni_lit_side(), or NULL. */
-int gni_shadows_anything(const gni_draft *d, uint32_t object, const gni_hull *volume, const double *plane);
+/* What the volume may touch of that which receives, is seen and lit. plane: of gni_lit_side(), or NULL. Returns 0 when
+ * there is nothing. */
+int gni_find_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume, const double *plane);
 
 /* A closed volume of the caster at hand. */
 typedef struct gni_volume {
     uint32_t object;
     const gni_case *at_hand;
+    const uint32_t *scissor;
     gn_far far_end;
     const double *end_plane; /* view space; not read where there is a reach */
     double end_reach;
+    uint32_t triangles; /* that cast */
 } gni_volume;
 
-/* plan_volumes.c: the volumes of one caster, whose triangles are in d->casting. */
-gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand);
+/* plan_volumes.c */
+/* Planes go the other way: a plane p of view space is p m in the space that m takes to view space. */
+void gni_plane_before(double out[4], const double plane[4], const double m[16]);
+/* The volumes of one caster, whose triangles are in d->casting. */
+gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent);
+/* Fans of the same caster on patches, into d->flats. first_record: of its volume, if it has one. */
+void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record);
+uint32_t gni_count_casting(const gn_mesh *mesh, const int8_t *casting);
 /* Records of one volume: a record for each chunk that has any of it. Returns the sum of the silhouette's weights, or
  * GNI_NONE where no sides are drawn. */
 uint32_t gni_add_records(gni_draft *d, const gni_volume *volume, const int8_t *casting);

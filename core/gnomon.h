@@ -81,10 +81,11 @@ typedef struct gn_mesh_desc {
 } gn_mesh_desc;
 
 #define GN_MAX_TRIANGLES  0x10000000u /* three corners and a sign must fit 32 bits */
-#define GN_CHUNK_VERTICES 32768u      /* each is uploaded twice (near, far), and 16-bit indices reach 65536 */
+#define GN_CHUNK_VERTICES 32767u      /* with the hub each is uploaded twice (near, far); 16-bit indices reach 65536 */
 
 /* Vertices that one set of 16-bit indices reaches. Its vertices are welded vertices; one that several chunks need is in
- * each. Index 2 i is vertex i as it is (near), 2 i + 1 the same vertex moved away from the light (far). */
+ * each. Index 2 i is vertex i as it is (near), 2 i + 1 the same vertex moved away from the light (far). After the last
+ * comes the mesh's hub, about which fans are drawn. */
 typedef struct gn_chunk {
     uint32_t first_vertex, vertex_count; /* in gn_mesh_info.chunk_vertices */
     uint32_t first_triangle, triangle_count;
@@ -95,6 +96,7 @@ typedef struct gn_mesh_info {
     /* Subtract it from every vertex that you draw: plain float subtraction, without rounding, gives the very positions
      * that the volumes have. 0 on an axis where that could round. Object space. */
     float centre[3];
+    float hub[3]; /* the middle of the box, less the centre: in each chunk the vertex that follows its own */
     float box_min[3], box_max[3]; /* less the centre */
     uint32_t vertex_count;        /* after welding */
     uint32_t triangle_count;      /* as given: triangle i is the i-th of the description, whatever it is */
@@ -108,6 +110,7 @@ typedef struct gn_mesh_info {
     const uint32_t *triangles;      /* [triangle_count][3], into positions */
     const gn_chunk *chunks;         /* [chunk_count] */
     const uint32_t *chunk_vertices; /* into positions */
+    const uint16_t *corners;        /* [triangle_count][3]: each corner's vertex, in its chunk */
 } gn_mesh_info;
 
 /* Copies what it needs. Vertices are welded by exact position (-0 equals 0). Degenerate and duplicate triangles are
@@ -247,7 +250,7 @@ const gn_method_info *gn_method_describe(gn_method method);
 gn_method gn_method_by_name(const char *name, int *one_sided);
 
 /* Of a stencil that tells lit from shadowed by a count in its low bits (DESIGN.md, decision 10). A pixel is lit where
- * the whole stencil equals the reference. */
+ * the stencil's bits of `mask` equal the reference. */
 typedef struct gn_stencil_layout {
     int two_sided; /* 0: every caster is drawn twice, one side of its volume at a time, what counts up first */
     int discard;   /* then the other side is discarded by gl_FrontFacing; 0: culled, which may lose slivers */
@@ -256,6 +259,8 @@ typedef struct gn_stencil_layout {
     int low, high; /* counts, from the reference, that are kept. Wrapping: of the sum; else also on the way to it */
     int bits;      /* of the count */
     int flag;      /* the bit above: set where an earlier batch left a count; 0 where there is one batch */
+    int patch_bits; /* above the count: they name the patch that is seen; 0: patches are counted as all else */
+    int mask;      /* of count and flag */
 } gn_stencil_layout;
 
 /* How the far end of a volume survives clipping at the far plane. */
@@ -264,6 +269,16 @@ typedef enum gn_far {
     GN_FAR_CLAMPED,  /* at infinity, drawn under depth clamp */
     GN_FAR_ENDED     /* behind all that is seen and receives */
 } gn_far;
+
+/* What the method stencil does to fill no more than a receiver needs. All of it is exact; each moves pixels next to a
+ * discontinuity at most. */
+enum {
+    GN_MEASURE_ENDS = 1,    /* volumes end right behind the last thing that they may shadow, or at the light's reach */
+    GN_MEASURE_SCISSORS = 2, /* and are counted only where such things are seen */
+    GN_MEASURE_PATCHES = 4   /* on flat receivers projections are counted, and volumes reach the others only */
+};
+
+#define GN_MOST_PATCHES 3 /* planes whose flat receivers need no volumes; two bits of stencil name them */
 
 /* ---- Plan: what will be drawn, as data, decided before any GL call ---- */
 
@@ -284,6 +299,7 @@ typedef struct gn_scene {
      * colors and attenuations must be given; gn_plan_light.possible_error says what may be missing [0: none is left
      * out] */
     double least_light;
+    unsigned without; /* to measure them: a set of gn_measure that the method stencil does without */
 } gn_scene;
 
 enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4 };
@@ -297,12 +313,14 @@ typedef struct gn_record {
     uint32_t first_index;
     uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
     int fan;          /* the dark cap is a fan over the silhouette */
-    int mcguire_case; /* 1: by z-pass; 2, 3: by z-fail */
+    uint32_t patch;   /* not 0: a projection onto this patch, its dark cap alone, counted where the patch is seen */
+    int mcguire_case; /* 1: by z-pass; 2, 3: by z-fail; 0: on a patch */
     int mirrored;     /* the model matrix swaps front and back */
     gn_far far_end;
     double end_plane[4]; /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
     double end_reach;    /* not 0: no plane; it ends at so many times its distance from the light, or so much farther */
     float far_matrix[16]; /* a far vertex's clip position is this times its position */
+    uint32_t scissor[4];  /* x, y, width, height in pixels: within the light's; nothing outside needs it */
 } gn_record;
 
 typedef enum gn_step_kind {
@@ -310,7 +328,9 @@ typedef enum gn_step_kind {
     GN_STEP_ZERO,    /* the stencil becomes the reference of `light` again, by a quad in its scissor */
     GN_STEP_VOLUMES, /* records are counted into the stencil */
     GN_STEP_DRAW,    /* the host's: see gn_draw */
-    GN_STEP_FOLD     /* where the count is not nought it becomes nought and the flag is set, by a quad in the scissor */
+    GN_STEP_FOLD,    /* where the count is not nought it becomes nought and the flag is set, by a quad in the scissor */
+    GN_STEP_MARK,    /* patches are named in the stencil of the pixels where they are seen */
+    GN_STEP_DARKEN   /* all of `patch` that is in the light's scissor is shadow: its seen side looks away */
 } gn_step_kind;
 
 typedef enum gn_draw {
@@ -326,6 +346,7 @@ typedef struct gn_step {
     uint32_t light; /* index into the scene's lights, where it matters */
     int receivers;  /* GN_DRAW_LIGHT: 1 draw what receives, under the mask; 0 draw the rest, unmasked */
     uint32_t first_record, record_count; /* GN_STEP_VOLUMES */
+    uint32_t patch;                      /* GN_STEP_DARKEN */
 } gn_step;
 
 /* Why something is not drawn. */
@@ -355,7 +376,7 @@ typedef struct gn_plan_light {
                                  light is skipped */
     double depth_bounds[2];   /* window depths of what it lights; 0, 1: no bound */
     double possible_error;    /* the most that skipping it takes from a pixel; 0 unless it is GN_SKIP_UNIMPORTANT */
-    uint32_t casters;         /* with a volume */
+    uint32_t casters;         /* with a volume, or a projection on a patch */
     uint32_t cases[3];        /* of them: McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
     uint32_t skipped_casters; /* that might have cast, and were skipped */
     uint32_t layers;          /* no point is blocked by more casting triangles of one batch than this */
@@ -365,9 +386,10 @@ typedef struct gn_plan_light {
 /* What became of one object in one light. */
 typedef struct gn_plan_caster {
     uint8_t skip;         /* gn_skip */
-    uint8_t mcguire_case; /* 1 to 3; 0 when it is skipped */
+    uint8_t mcguire_case; /* 1 to 3; 0 when it has no volume */
     uint8_t parts;        /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: drawn */
     uint8_t fan;          /* its dark cap is a fan */
+    uint8_t patches;      /* on which it is projected: bit p for patch p + 1 */
     uint8_t is_lit;       /* 0: out of view or of the light's bounds; the host need not draw it in the light's passes */
 } gn_plan_caster;
 
@@ -392,6 +414,7 @@ typedef struct gn_plan_object {
     const gn_mesh *mesh;
     unsigned flags;
     int mirrored;
+    uint8_t patch;    /* of GN_MOST_PATCHES, which it is part of; 0: of none */
     float matrix[16]; /* positions less the mesh's centre to clip space: for every pass of this object */
 } gn_plan_object;
 
@@ -415,6 +438,8 @@ typedef struct gn_plan {
     const gn_plan_object *objects;
     uint32_t object_count;
     const gn_plan_caster *casters; /* [light_count][object_count] */
+    uint32_t patch_count;
+    double patches[GN_MOST_PATCHES][4]; /* world: planes, positive where the eye is */
     uint32_t warnings;             /* set of gn_warning: bit 1u << warning */
     uint32_t endless_casters;      /* left out with GN_WARN_ENDLESS; one is counted for each light */
     double depth_limit;            /* the view distance from which on four steps of depth are larger than a pixel */

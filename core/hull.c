@@ -58,6 +58,21 @@ void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_vi
             out->edges[i][k] = out->points[1 << i][k] - out->points[0][k];
 }
 
+void gni_find_ball(double out[4], const gni_hull *box)
+{
+    double square = 0.0;
+
+    for (int k = 0; k < 3; k++)
+        out[k] = 0.5 * (box->points[0][k] + box->points[7][k]);
+    for (int i = 0; i < box->point_count; i++) {
+        const double *p = box->points[i];
+
+        square = fmax(square, (p[0] - out[0]) * (p[0] - out[0]) + (p[1] - out[1]) * (p[1] - out[1]) +
+                                  (p[2] - out[2]) * (p[2] - out[2]));
+    }
+    out[3] = sqrt(square);
+}
+
 void gni_hull_around(gni_hull *out, const double low[3], const double high[3])
 {
     memset(out, 0, sizeof *out);
@@ -173,6 +188,29 @@ int gni_is_outside(const gni_hull *hull, const double plane[4])
             return 0;
     }
     return most < -GNI_MARGIN * scale;
+}
+
+/* The least value of a plane, less what rounding may make of 0: times -1 or 1. */
+static double least_side(const gni_hull *hull, const double plane[4], double margin)
+{
+    double least = INFINITY, scale = fabs(plane[3]);
+
+    for (int i = 0; i < hull->point_count; i++) {
+        least = fmin(least, gni_dot(plane, hull->points[i]) + plane[3]);
+        for (int k = 0; k < 3; k++)
+            scale = fmax(scale, fabs(plane[k] * hull->points[i][k]));
+    }
+    return least + margin * scale;
+}
+
+int gni_lies_before(const gni_hull *hull, const double plane[4])
+{
+    return least_side(hull, plane, GNI_MARGIN) >= 0.0;
+}
+
+int gni_is_before(const gni_hull *hull, const double plane[4])
+{
+    return least_side(hull, plane, -GNI_MARGIN) > 0.0;
 }
 
 int gni_light_is_outside(const gni_hull *box, const double light[4])

@@ -46,6 +46,7 @@ static void plane_of(const gn_mesh *mesh, uint32_t triangle, double plane[4])
 static gn_result make_planes(gn_mesh *mesh)
 {
     const double *first = NULL;
+    double largest = 0.0;
     int is_alike = 1;
 
     mesh->planes = gni_alloc(mesh->context, mesh->info.triangle_count, 4 * sizeof(double));
@@ -61,6 +62,10 @@ static gn_result make_planes(gn_mesh *mesh)
             continue;
         if (!first)
             first = plane;
+        if (gni_dot(plane, plane) > largest) {
+            largest = gni_dot(plane, plane);
+            mesh->largest = t;
+        }
         is_alike &= plane[0] * first[0] + plane[1] * first[1] + plane[2] * first[2] > 0.0;
         for (int k = 0; k < 3; k++) { /* exact: a mesh is planar, or it is not known to be */
             const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
@@ -115,6 +120,9 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
     mesh->info.triangles = mesh->triangles;
     mesh->info.chunks = mesh->chunks;
     mesh->info.chunk_vertices = mesh->chunk_vertices;
+    mesh->info.corners = mesh->corners;
+    for (int axis = 0; axis < 3; axis++) /* halves, since the sum may be too much for a float */
+        mesh->info.hub[axis] = 0.5f * mesh->info.box_min[axis] + 0.5f * mesh->info.box_max[axis];
     *out = mesh;
     return GN_OK;
 }

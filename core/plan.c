@@ -41,7 +41,7 @@ static int lay_out(gni_draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
     const uint32_t limit = batch_limit(s);
-    size_t records = 0, indices = 0, triangles = 0, all = 0, batches = 1;
+    size_t records = 0, chunks = 0, indices = 0, triangles = 0, all = 0, batches = 1;
     const size_t most =
         UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
 
@@ -54,26 +54,31 @@ static int lay_out(gni_draft *d, arena *a)
         if (s->camera.orthographic)
             ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
         pieces = gni_most_pieces(mesh, ends, limit);
-        if (mesh->info.chunk_count > (most - records) / pieces ||
+        if (mesh->info.chunk_count > (most - records) / (pieces + GN_MOST_PATCHES) ||
             mesh->info.triangle_count > (most - indices) / GNI_MOST_INDICES)
             return 0;
         records += mesh->info.chunk_count * pieces;
+        chunks += mesh->info.chunk_count;
         batches += pieces;
         indices += (size_t)mesh->info.triangle_count * GNI_MOST_INDICES;
         all += mesh->info.triangle_count;
         triangles = triangles < mesh->info.triangle_count ? mesh->info.triangle_count : triangles;
     }
     d->plan = cut(a, 1, sizeof *d->plan);
-    /* a light zeroes twice and draws twice; each of its batches holds a piece of a caster at least, and is folded */
+    /* a light zeroes twice, marks once, darkens each patch and draws twice; each of its batches holds a piece of a caster at least, and is folded */
     if (batches > (SIZE_MAX / 2 - 8) / (s->light_count ? s->light_count : 1))
         return 0;
-    d->steps = cut(a, 3 + (size_t)s->light_count * (4 + 2 * batches), sizeof *d->steps);
+    d->steps = cut(a, 3 + (size_t)s->light_count * (5 + GN_MOST_PATCHES + 2 * batches), sizeof *d->steps);
     d->lights = cut(a, s->light_count, sizeof *d->lights);
     d->objects = cut(a, s->object_count, sizeof *d->objects);
     d->casters = cut(a, (size_t)s->object_count * s->light_count, sizeof *d->casters);
     d->boxes = cut(a, s->object_count, sizeof *d->boxes);
+    d->rectangles = cut(a, s->object_count, sizeof *d->rectangles);
+    d->balls = cut(a, s->object_count, sizeof *d->balls);
     d->is_in = cut(a, s->object_count, 1);
-    d->records = cut(a, records * s->light_count, sizeof *d->records);
+    d->heights = cut(a, s->object_count, sizeof *d->heights);
+    d->records = cut(a, (records + GN_MOST_PATCHES * chunks) * s->light_count, sizeof *d->records);
+    d->flats = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->flats);
     d->casting = cut(a, triangles, 1);
     if (gni_must_end(s)) {
         d->group = cut(a, triangles, 1);
@@ -251,12 +256,15 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     static const float no_centre[3] = {0, 0, 0};
     const gn_scene *s = d->scene;
     const uint32_t whole[4] = {0, 0, s->target.width, s->target.height};
+    gn_result result;
 
     for (uint32_t i = 0; i < s->object_count; i++) {
         double model_view[16];
 
         gni_model_view(model_view, &s->camera, s->objects[i].model, s->objects[i].mesh->info.centre);
         gni_box_hull(&d->boxes[i], &s->objects[i].mesh->info, model_view);
+        gni_find_ball(d->balls[i], &d->boxes[i]);
+        gni_find_rectangle(d->rectangles[i], &d->boxes[i], &s->camera, &s->target);
         d->receivers_are_known |= (s->objects[i].flags & GN_RECEIVES) != 0;
     }
     gni_make_view(&d->seen, &s->camera, &s->target, whole);
@@ -272,7 +280,14 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     gni_make_view(&d->seen, &s->camera, &s->target, whole);
     find_depth_limit(d);
     d->stain.reference = d->choice.stencil.reference;
-    return place_objects(d);
+    result = place_objects(d);
+    if (result != GN_OK)
+        return result;
+    gni_find_patches(d);
+    d->plan->patch_count = d->patch_count;
+    for (uint32_t p = 0; p < d->patch_count; p++)
+        gni_plane_before(d->plan->patches[p], d->patches[p].plane, d->view);
+    return GN_OK;
 }
 
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan)

@@ -33,16 +33,19 @@ static int is_exempt(const gn_light *light, uint32_t object)
     return 0;
 }
 
-/* Why a caster is not drawn; else fills its case. */
-static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand)
+/* Why a caster is not drawn; else fills its case and extent. */
+static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand, gni_extent *extent)
 {
     const gn_light *light = &d->scene->lights[d->light];
     const gn_method method = d->lights[d->light].method;
     const unsigned flags = d->scene->objects[object].flags, all_drawn = GN_DRAWN | GN_DRAWN_BACKS;
     gni_hull volume;
+    gni_view view;
     double plane[4];
     int is_flat;
 
+    memset(extent, 0, sizeof *extent); /* all patches are filled */
+    memcpy(extent->scissor, d->lights[d->light].scissor, sizeof extent->scissor);
     at_hand->is_drawn = (flags & all_drawn) == all_drawn;
     at_hand->number = method == GN_METHOD_ZPASS ? 1 : 3;
     at_hand->seen = GNI_SEES_CASTER | GNI_SEES_FAR | GNI_SEES_VOLUME;
@@ -55,12 +58,17 @@ static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand)
     if (!gni_may_cast(&d->bounds, &d->boxes[object]))
         return GN_SKIP_OUT_OF_REACH;
     gni_volume_hull(&volume, &d->boxes[object], d->bounds.light);
-    gni_find_case(at_hand, &d->seen, &d->boxes[object], &volume, d->bounds.light);
-    if (!(at_hand->seen & GNI_SEES_VOLUME))
+    if (!gni_may_be_seen(&d->seen, &volume))
         return GN_SKIP_OUT_OF_VIEW;
     is_flat = gni_lit_side(d, object, plane);
+    for (uint32_t p = 0; p < d->patch_count && d->uses_patches; p++)
+        extent->on[p] = gni_cast_on_patch(d, object, &d->patches[p], extent->shadow[p]);
+    if (!gni_find_extent(extent, d, object, &volume, is_flat ? plane : NULL))
+        return GN_SKIP_NO_RECEIVER;
+    gni_make_view(&view, &d->scene->camera, &d->scene->target, extent->scissor);
+    gni_find_case(at_hand, &view, &d->boxes[object], &volume, d->bounds.light);
     at_hand->is_drawn = is_flat || (flags & all_drawn) == all_drawn;
-    return gni_shadows_anything(d, object, &volume, is_flat ? plane : NULL) ? GN_SKIP_NOT : GN_SKIP_NO_RECEIVER;
+    return at_hand->seen & GNI_SEES_VOLUME ? GN_SKIP_NOT : GN_SKIP_NO_RECEIVER;
 }
 
 /* Records of all casters, in one batch or in as many as it takes. */
@@ -71,30 +79,40 @@ static gn_result add_casters(gni_draft *d)
 
     about->casters = about->skipped_casters = 0;
     memset(about->cases, 0, sizeof about->cases);
+    d->flat_count = 0;
     d->casting_count = d->cheap_layers = 0;
     for (uint32_t i = 0; i < d->scene->object_count && result == GN_OK; i++) {
         gn_plan_caster *caster = &d->casters[(size_t)d->light * d->scene->object_count + i];
-        const uint32_t before = d->plan->record_count;
+        const uint32_t before = d->plan->record_count, flats = d->flat_count;
         gni_case at_hand;
+        gni_extent extent;
 
-        caster->mcguire_case = caster->parts = caster->fan = 0;
-        caster->skip = (uint8_t)look_at(d, i, &at_hand);
+        caster->mcguire_case = caster->parts = caster->fan = caster->patches = 0;
+        caster->skip = (uint8_t)look_at(d, i, &at_hand, &extent);
+        for (uint32_t p = 0; p < d->patch_count; p++)
+            caster->patches |= (uint8_t)((extent.on[p] == GNI_FANS_PATCH) << p);
         d->is_in[i] &= (uint8_t)~GNI_IN_CAST;
         if (d->layers)
             d->cheap_of[i] = 0;
-        if (caster->skip == GN_SKIP_NOT) {
+        if (caster->skip == GN_SKIP_NOT || caster->patches)
             gn_object_casting(&d->scene->objects[i], &d->scene->lights[d->light], d->casting);
-            result = gni_add_caster(d, i, &at_hand);
-        }
-        if (d->plan->record_count > before) {
+        if (caster->skip == GN_SKIP_NOT)
+            result = gni_add_caster(d, i, &at_hand, &extent);
+        if (caster->patches)
+            gni_add_flats(d, i, &extent, before);
+        if (d->plan->record_count > before || d->flat_count > flats) {
             d->is_in[i] |= GNI_IN_CAST;
+            caster->skip = GN_SKIP_NOT;
             about->casters++;
-            about->cases[caster->mcguire_case - 1]++;
+            if (caster->mcguire_case)
+                about->cases[caster->mcguire_case - 1]++;
         } else {
             caster->skip = caster->skip == GN_SKIP_NOT ? GN_SKIP_NO_TRIANGLE : caster->skip;
             about->skipped_casters += caster->skip != GN_SKIP_NO_CASTER;
         }
     }
+    memcpy(d->records + d->plan->record_count, d->flats, d->flat_count * sizeof *d->flats);
+    d->plan->record_count += d->flat_count;
     return result;
 }
 
@@ -148,33 +166,94 @@ static void stain_stencil(gni_draft *d)
     }
 }
 
-/* Volumes and what they stand on: a stencil that is clean where the light is. */
-static gn_result add_volumes(gni_draft *d)
+/* How the light's volumes are counted: 0 with patches, 1 without, 2 in batches. */
+static void set_way(gni_draft *d, int way, const gn_stencil_layout *layout)
 {
     gn_plan_light *about = &d->lights[d->light];
-    const gn_plan before = *d->plan;
-    const gni_stain stain = d->stain;
-    gn_result result;
-    int is_long;
 
-    d->is_batched = 0;
-    d->first_of_batch = before.record_count;
-    clean_stencil(d);
-    result = add_casters(d);
-    is_long = !about->stencil.wrap && d->casting_count > (uint64_t)about->stencil.high;
-    about->layers = (uint32_t)(d->cheap_layers < UINT32_MAX ? d->cheap_layers : UINT32_MAX);
-    if (result == GN_OK && d->layers && !gni_layers_fit(d, (uint32_t)about->stencil.high, before.record_count)) {
-        *d->plan = before;
-        d->stain = stain;
+    about->stencil = *layout;
+    d->uses_patches = way == 0;
+    d->is_batched = way == 2;
+    d->first_of_batch = d->plan->record_count;
+    if (way == 0)
+        gni_patch_layout(&about->stencil, d->patch_count);
+    if (way == 2) {
         gni_split_layout(&about->stencil);
         about->layers = 0;
         memset(&d->layers->batch, 0, sizeof d->layers->batch);
-        d->is_batched = 1;
-        clean_stencil(d);
-        result = add_casters(d);
     }
+}
+
+/* The steps before the light's volumes: a stencil that is clean where the light is, and patches named in it. */
+static void prepare_stencil(gni_draft *d)
+{
+    if (d->are_marked && !d->uses_patches) { /* their names are in the bits of the count now */
+        d->are_marked = 0;
+        d->stain.at[0] = d->stain.at[1] = 0;
+        d->stain.at[2] = d->scene->target.width;
+        d->stain.at[3] = d->scene->target.height;
+    }
+    clean_stencil(d);
+    if (d->uses_patches && !d->are_marked)
+        gni_add_step(d, GN_STEP_MARK, GN_DRAW_NOTHING, d->light, 0);
+    d->are_marked |= d->uses_patches;
+    for (uint32_t p = 0; p < d->patch_count && d->uses_patches; p++)
+        if (d->patches[p].use == GNI_PATCH_DARK) {
+            gni_add_step(d, GN_STEP_DARKEN, GN_DRAW_NOTHING, d->light, 0);
+            d->steps[d->plan->step_count - 1].patch = p + 1;
+        }
+}
+
+static int any_is_dark(const gni_draft *d)
+{
+    for (uint32_t p = 0; p < d->patch_count; p++)
+        if (d->patches[p].use == GNI_PATCH_DARK)
+            return 1;
+    return 0;
+}
+
+/* Whether the counts that were just made surely keep within the layout's bits. */
+static int fits(gni_draft *d, uint32_t first_record)
+{
+    gn_plan_light *about = &d->lights[d->light];
+    const uint32_t high = (uint32_t)about->stencil.high;
+
+    about->layers = (uint32_t)(d->cheap_layers < UINT32_MAX ? d->cheap_layers : UINT32_MAX);
+    return about->layers <= high || (d->layers && gni_layers_fit(d, high, first_record));
+}
+
+/* Volumes and what they stand on, in one of three ways: with patches, if some is worth it; without; in batches. */
+static gn_result add_volumes(gni_draft *d)
+{
+    gn_plan_light *about = &d->lights[d->light];
+    const gn_stencil_layout layout = about->stencil;
+    const gni_draft before = *d;
+    const gn_plan plan = *d->plan;
+    gn_result result = GN_OK;
+    int is_long = 0;
+
+    for (int way = d->patch_count ? 0 : 1; way < 3; way++) {
+        set_way(d, way, &layout);
+        if (way == 2)
+            prepare_stencil(d);
+        result = add_casters(d);
+        is_long = !about->stencil.wrap && d->casting_count > (uint64_t)about->stencil.high;
+        if (result != GN_OK || way == 2 || fits(d, plan.record_count))
+            break;
+        if (way == 1 && !d->layers)
+            break;
+        *d->plan = plan;
+        d->stain = before.stain;
+        d->are_marked = before.are_marked;
+    }
+    if (d->uses_patches && !d->flat_count && !d->are_marked && !any_is_dark(d)) {
+        d->uses_patches = 0; /* nothing asks for names */
+        about->stencil = layout;
+    }
+    if (!d->is_batched)
+        prepare_stencil(d);
     d->plan->warnings |= is_long ? 1u << GN_WARN_OVERFLOW : 0u;
-    if (d->plan->record_count > before.record_count || d->scene->blend_once)
+    if (d->plan->record_count > plan.record_count || d->scene->blend_once || d->uses_patches)
         stain_stencil(d);
     gni_end_batch(d, 0);
     return result;
@@ -278,6 +357,7 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
         }
     }
     find_depth_bounds(d, about);
+    gni_light_patches(d);
     if (any_receiver) {
         result = add_volumes(d);
         gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIGHT, light, 1);

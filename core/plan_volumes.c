@@ -9,6 +9,26 @@
 #include <math.h>
 #include <string.h>
 
+/* z-pass: a line of sight may pass through the end of a volume, into it or out of it (DESIGN.md, decision 6): where the
+ * near rectangle, or something that is seen, is not wholly before it. */
+static int is_end_crossed(const gni_draft *d, const gni_volume *v)
+{
+    gni_view view;
+
+    if (v->far_end != GN_FAR_ENDED)
+        return 0;
+    if (d->region || !d->receivers_are_known)
+        return 1;
+    gni_make_view(&view, &d->scene->camera, &d->scene->target, v->scissor);
+    if (!gni_is_before(&view.near_rectangle, v->end_plane))
+        return 1;
+    for (uint32_t i = 0; i < d->scene->object_count; i++)
+        if (d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
+            gni_do_rectangles_meet(d->rectangles[i], v->scissor) && !gni_is_before(&d->boxes[i], v->end_plane))
+            return 1;
+    return 0;
+}
+
 /* Which parts of a volume its way of counting takes. */
 static unsigned choose_parts(const gni_draft *d, const gni_volume *v, int *mcguire_case)
 {
@@ -20,8 +40,8 @@ static unsigned choose_parts(const gni_draft *d, const gni_volume *v, int *mcgui
         c.number = c.seen & GNI_SEES_CASTER ? 3 : 2; /* what lies before the near plane would be drawn, and counted */
     if (c.seen & GNI_SEES_VOLUME)
         parts |= GN_SIDES;
-    /* z-pass: the eye may look into a volume from behind its end (DESIGN.md, decision 6) */
-    if (v->far_end == GN_FAR_ENDED ? c.seen & GNI_SEES_VOLUME : c.number != 1 && c.seen & GNI_SEES_FAR)
+    if (c.seen & (v->far_end == GN_FAR_ENDED && d->region ? GNI_SEES_VOLUME : GNI_SEES_FAR) &&
+        (c.number != 1 || is_end_crossed(d, v)))
         parts |= GN_DARK_CAP;
     if (c.seen & GNI_SEES_CASTER && (c.number != 1 || !c.is_drawn))
         parts |= GN_LIGHT_CAP;
@@ -30,7 +50,7 @@ static unsigned choose_parts(const gni_draft *d, const gni_volume *v, int *mcgui
 }
 
 /* Planes go the other way: a plane p of view space is p m in object space, row times matrix. */
-static void plane_before(double out[4], const double plane[4], const double m[16])
+void gni_plane_before(double out[4], const double plane[4], const double m[16])
 {
     double r[4];
 
@@ -62,64 +82,95 @@ static void scale_like(double m[16], const double near_matrix[16])
         m[i] = ldexp(m[i], shift);
 }
 
-uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *casting)
+/* A record of a volume before its indices. */
+static void start_record(gn_record *r, const gni_draft *d, const gni_volume *v, uint32_t chunk)
 {
     const gn_object *object = &d->scene->objects[v->object];
-    const gn_mesh *mesh = object->mesh;
-    const double *light = d->bounds.light;
-    gn_plan_caster *caster = &d->casters[(size_t)d->light * d->scene->object_count + v->object];
-    int mcguire_case;
-    unsigned parts = choose_parts(d, v, &mcguire_case);
-    double model_view[16], near_matrix[16], extrusion[16], far_matrix[16], plane_world[4] = {0, 0, 0, 0};
-    uint32_t apex = GNI_NONE, silhouette = parts & GN_SIDES ? 0 : GNI_NONE;
+    double model_view[16], near_matrix[16], extrusion[16], far_matrix[16];
 
-    gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
+    memset(r, 0, sizeof *r);
+    gni_model_view(model_view, &d->scene->camera, object->model, object->mesh->info.centre);
     if (v->end_reach > 0.0) {
-        gni_extrusion_by(extrusion, light, v->end_reach);
+        gni_extrusion_by(extrusion, d->bounds.light, v->end_reach);
     } else {
-        gni_extrusion(extrusion, light, v->end_plane);
-        plane_before(plane_world, v->end_plane, d->view);
+        gni_extrusion(extrusion, d->bounds.light, v->end_plane);
+        gni_plane_before(r->end_plane, v->end_plane, d->view);
     }
     gn_mat4_multiply(far_matrix, d->projection, extrusion);
     gn_mat4_multiply(far_matrix, far_matrix, model_view);
     gn_mat4_multiply(near_matrix, d->projection, model_view);
     scale_like(far_matrix, near_matrix);
-    if (v->far_end != GN_FAR_ENDED && light[3] == 0.0)
-        parts |= GNI_CONVERGING;
-    else if (v->far_end == GN_FAR_INFINITE && parts & GN_DARK_CAP && d->lights[d->light].method == GN_METHOD_STENCIL &&
-             gni_light_is_outside(&d->boxes[v->object], light))
-        apex = gni_find_apex(mesh, casting, model_view, light, &d->boxes[v->object]);
-    if (apex != GNI_NONE)
-        parts |= GNI_FAN;
+    gn_mat4_to_float(r->far_matrix, far_matrix);
+    r->light = d->light;
+    r->object = v->object;
+    r->chunk = chunk;
+    r->mirrored = d->objects[v->object].mirrored;
+    r->far_end = v->far_end;
+    r->end_reach = v->end_reach;
+    r->first_index = d->plan->index_count;
+    memcpy(r->scissor, v->scissor, sizeof r->scissor);
+}
+
+/* Whether the dark cap of a volume that ends on a plane is better a fan. In several chunks it must be so in all, or in
+ * none: closed meshes have the fewer edges. */
+static int is_better_fan(const gn_mesh *mesh, uint32_t edges, uint32_t triangles)
+{
+    return mesh->info.chunk_count > 1 ? mesh->info.solid_part_count == mesh->info.part_count : edges < triangles;
+}
+
+static int is_fan(const gni_draft *d, const gni_volume *v, const gn_record *r, const uint16_t *sides, uint32_t of_a_side)
+{
+    const gn_object *object = &d->scene->objects[v->object];
+    const gn_mesh *mesh = object->mesh;
+    const double *light = d->bounds.light;
+    double model_view[16];
+
+    if (d->lights[d->light].method != GN_METHOD_STENCIL || v->end_reach > 0.0 || v->far_end == GN_FAR_CLAMPED ||
+        !is_better_fan(mesh, r->side_count / of_a_side, v->triangles))
+        return 0;
+    if (v->far_end == GN_FAR_ENDED)
+        return !d->region;
+    if (light[3] == 0.0 || mesh->info.chunk_count > 1 || !gni_light_is_outside(&d->boxes[v->object], light))
+        return 0;
+    gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
+    return gni_runs_round_hub(mesh, r->chunk, sides, r->side_count, of_a_side, model_view, light);
+}
+
+uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *casting)
+{
+    const gn_mesh *mesh = d->scene->objects[v->object].mesh;
+    gn_plan_caster *caster = &d->casters[(size_t)d->light * d->scene->object_count + v->object];
+    const int converges = v->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0;
+    const uint32_t of_a_side = converges ? 3 : 6;
+    int mcguire_case;
+    const unsigned parts = choose_parts(d, v, &mcguire_case);
+    uint32_t silhouette = parts & GN_SIDES ? 0 : GNI_NONE;
+
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         gn_record *r = &d->records[d->plan->record_count];
-        gni_stream stream;
-        const uint32_t count =
-            gni_volume_indices(mesh, c, casting, parts, apex, d->indices + d->plan->index_count, &stream);
+        uint16_t *const out = d->indices + d->plan->index_count, *at = out;
 
-        if (silhouette != GNI_NONE)
-            silhouette += stream.sides / (parts & GNI_CONVERGING ? 3 : 6);
-        if (count == 0)
-            continue;
-        memset(r, 0, sizeof *r);
-        r->light = d->light;
-        r->object = v->object;
-        r->chunk = c;
-        r->parts = (stream.sides ? GN_SIDES : 0u) | (stream.dark_cap ? GN_DARK_CAP : 0u) |
-                   (stream.light_cap + stream.turned_cap ? GN_LIGHT_CAP : 0u);
-        r->first_index = d->plan->index_count;
-        r->side_count = stream.sides;
-        r->dark_cap_count = stream.dark_cap;
-        r->light_cap_count = stream.light_cap;
-        r->turned_cap_count = stream.turned_cap;
-        r->fan = apex != GNI_NONE;
+        start_record(r, d, v, c);
         r->mcguire_case = mcguire_case;
-        r->mirrored = d->objects[v->object].mirrored;
-        r->far_end = v->far_end;
-        memcpy(r->end_plane, plane_world, sizeof r->end_plane);
-        r->end_reach = v->end_reach;
-        gn_mat4_to_float(r->far_matrix, far_matrix);
-        d->plan->index_count += count;
+        if (parts & GN_SIDES)
+            at += r->side_count = gni_put_sides(mesh, c, casting, converges, at);
+        if (parts & GN_DARK_CAP && !converges) {
+            r->fan = is_fan(d, v, r, out, of_a_side);
+            r->dark_cap_count = r->fan ? gni_put_fan(mesh, c, out, r->side_count, of_a_side, at)
+                                       : gni_put_dark_cap(mesh, c, casting, at);
+            at += r->dark_cap_count;
+        }
+        if (parts & GN_LIGHT_CAP) {
+            at += r->light_cap_count = gni_put_light_cap(mesh, c, casting, 1, at);
+            at += r->turned_cap_count = gni_put_light_cap(mesh, c, casting, -1, at);
+        }
+        if (silhouette != GNI_NONE)
+            silhouette += r->side_count / of_a_side;
+        if (at == out)
+            continue;
+        r->parts = (r->side_count ? GN_SIDES : 0u) | (r->dark_cap_count ? GN_DARK_CAP : 0u) |
+                   (r->light_cap_count + r->turned_cap_count ? GN_LIGHT_CAP : 0u);
+        d->plan->index_count += (uint32_t)(at - out);
         d->plan->record_count++;
         caster->mcguire_case = (uint8_t)mcguire_case;
         caster->parts |= (uint8_t)r->parts;
@@ -129,35 +180,89 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *castin
 }
 
 /* A bound on the layers of a caster that costs no more than to look: half the silhouette, seen from outside. */
-static void note_layers(gni_draft *d, const gni_volume *v, const int8_t *casting, uint32_t silhouette)
+static void note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t silhouette)
 {
-    const gn_mesh *mesh = d->scene->objects[v->object].mesh;
-    uint32_t count = 0, cheap;
+    uint32_t cheap = triangles;
+
+    if (silhouette != GNI_NONE && silhouette / 2 < triangles && gni_light_is_outside(&d->boxes[object], d->bounds.light))
+        cheap = silhouette / 2;
+    d->cheap_layers += cheap;
+    if (d->layers)
+        d->cheap_of[object] += cheap;
+}
+
+uint32_t gni_count_casting(const gn_mesh *mesh, const int8_t *casting)
+{
+    uint32_t count = 0;
 
     for (uint32_t t = 0; t < mesh->info.triangle_count; t++)
         count += casting[t] != 0;
-    cheap = count;
-    if (silhouette != GNI_NONE && silhouette / 2 < count && gni_light_is_outside(&d->boxes[v->object], d->bounds.light))
-        cheap = silhouette / 2;
-    d->casting_count += count;
-    d->cheap_layers += cheap;
-    if (d->layers)
-        d->cheap_of[v->object] += cheap;
+    return count;
 }
 
-static void add_volume(gni_draft *d, const gni_volume *v, const int8_t *casting)
+/* The fan of a chunk among its volume's records; 0 where it has none. */
+static int find_fan(const gni_draft *d, uint32_t first_record, uint32_t chunk, gn_record *fan)
 {
-    if (d->is_batched) {
-        gni_add_batched(d, v, casting);
-    } else {
-        note_layers(d, v, casting, gni_add_records(d, v, casting));
-    }
+    for (uint32_t i = first_record; i < d->plan->record_count; i++)
+        if (d->records[i].chunk == chunk && d->records[i].fan) {
+            fan->first_index = d->records[i].first_index + d->records[i].side_count;
+            fan->dark_cap_count = d->records[i].dark_cap_count;
+            fan->fan = 1;
+            return 1;
+        }
+    return 0;
 }
 
-static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, gn_far far_end)
+void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record)
+{
+    const gn_mesh *mesh = d->scene->objects[object].mesh;
+    const uint32_t triangles = gni_count_casting(mesh, d->casting);
+    uint32_t silhouette = 0;
+
+    for (uint32_t c = 0; c < mesh->info.chunk_count && triangles; c++) {
+        uint16_t *const out = d->indices + d->plan->index_count;
+        gn_record shared = {0};
+
+        if (!find_fan(d, first_record, c, &shared)) {
+            const uint32_t sides = gni_put_sides(mesh, c, d->casting, 1, out);
+
+            shared.first_index = d->plan->index_count;
+            shared.fan = is_better_fan(mesh, sides / 3, triangles);
+            shared.dark_cap_count =
+                shared.fan ? gni_put_fan(mesh, c, out, sides, 3, out) : gni_put_dark_cap(mesh, c, d->casting, out);
+            d->plan->index_count += shared.dark_cap_count;
+        }
+        silhouette += shared.dark_cap_count / 3;
+        for (uint32_t p = 0; p < d->patch_count && shared.dark_cap_count; p++)
+            if (extent->on[p] == GNI_FANS_PATCH) {
+                const gni_volume v = {object, NULL, extent->shadow[p], GN_FAR_ENDED, d->patches[p].plane, 0.0, triangles};
+                gn_record *r = &d->flats[d->flat_count++];
+
+                start_record(r, d, &v, c);
+                r->first_index = shared.first_index;
+                r->dark_cap_count = shared.dark_cap_count;
+                r->parts = GN_DARK_CAP;
+                r->patch = p + 1;
+                r->fan = shared.fan;
+            }
+    }
+    note_layers(d, object, triangles, silhouette);
+}
+
+static void add_volume(gni_draft *d, gni_volume *v, const int8_t *casting)
+{
+    v->triangles = gni_count_casting(d->scene->objects[v->object].mesh, casting);
+    d->casting_count += v->triangles;
+    if (d->is_batched)
+        gni_add_batched(d, v, casting);
+    else
+        note_layers(d, v->object, v->triangles, gni_add_records(d, v, casting));
+}
+
+static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, const uint32_t *scissor, gn_far far_end)
 {
     static const double infinity[4] = {0, 0, 0, 1};
-    const gni_volume v = {object, at_hand, far_end, infinity, 0.0};
+    gni_volume v = {object, at_hand, scissor, far_end, infinity, 0.0, 0};
 
     add_volume(d, &v, d->casting);
 }
@@ -179,7 +284,7 @@ static int is_cut(const gni_draft *d, uint32_t object_index)
 
 /* Nothing ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not
  * stop the frame; elsewhere depth clamp does where it can, or the frame is refused. */
-static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *at_hand)
+static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *at_hand, const uint32_t *scissor)
 {
     const gn_camera *camera = &d->scene->camera;
     const gn_target *target = &d->scene->target;
@@ -192,7 +297,7 @@ static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *
         return GN_OK;
     }
     if (clamps && !is_cut(d, object)) {
-        add_endless(d, object, at_hand, GN_FAR_CLAMPED);
+        add_endless(d, object, at_hand, scissor, GN_FAR_CLAMPED);
         return GN_OK;
     }
     if (camera->finite_far)
@@ -210,7 +315,7 @@ static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *
 }
 
 /* A caster's volumes, one for each end. */
-static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *at_hand)
+static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *at_hand, const uint32_t *scissor)
 {
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
@@ -218,9 +323,9 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
 
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
     if (!gni_choose_ends(d->ends, d->region, mesh, model_view, d->bounds.light, d->casting, d->end_of))
-        return clamp_or_refuse(d, object_index, at_hand);
+        return clamp_or_refuse(d, object_index, at_hand, scissor);
     for (uint32_t p = 0; p < d->ends->count; p++) {
-        const gni_volume v = {object_index, at_hand, GN_FAR_ENDED, d->ends->planes[p], d->ends->reach};
+        gni_volume v = {object_index, at_hand, scissor, GN_FAR_ENDED, d->ends->planes[p], d->ends->reach, 0};
         int any = 0;
 
         for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
@@ -233,10 +338,16 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
     return GN_OK;
 }
 
-gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand)
+gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent)
 {
     if (d->region)
-        return add_ended(d, object, at_hand);
-    add_endless(d, object, at_hand, GN_FAR_INFINITE);
+        return add_ended(d, object, at_hand, extent->scissor);
+    if (extent->is_ended) {
+        gni_volume v = {object, at_hand, extent->scissor, GN_FAR_ENDED, extent->end_plane, 0.0, 0};
+
+        add_volume(d, &v, d->casting);
+    } else {
+        add_endless(d, object, at_hand, extent->scissor, GN_FAR_INFINITE);
+    }
     return GN_OK;
 }

@@ -1,4 +1,4 @@
-/* receivers.c - whether a caster's volume touches anything that is there to be shadowed.
+/* receivers.c - what a caster's volume touches of all that is there to be shadowed.
  *
  * A floor on which all stands shadows nothing: flat casters that the eye and the light see from the same side shadow
  * nothing on that side, nor themselves. Their volumes are left out where their border is out of view. On the border
@@ -8,44 +8,18 @@
 
 #include <math.h>
 
-/* The plane of a planar mesh in view space; 0 when it has none. */
-static int plane_in_view(const gn_object *object, const gn_camera *camera, double plane[4])
-{
-    const gn_mesh *mesh = object->mesh;
-    double model_view[16], v[3][3], a[3], b[3];
-    uint32_t t = 0;
-
-    if (!mesh->info.planar)
-        return 0;
-    for (uint32_t i = 0; i < mesh->info.triangle_count; i++) /* the largest: a sliver's plane is all rounding */
-        if (gni_dot(mesh->planes + 4 * (size_t)i, mesh->planes + 4 * (size_t)i) >
-            gni_dot(mesh->planes + 4 * (size_t)t, mesh->planes + 4 * (size_t)t))
-            t = i;
-    gni_model_view(model_view, camera, object->model, mesh->info.centre);
-    for (int k = 0; k < 3; k++)
-        gni_vertex(v[k], mesh, mesh->triangles[3 * (size_t)t + (size_t)k], model_view);
-    for (int k = 0; k < 3; k++) {
-        a[k] = v[1][k] - v[0][k];
-        b[k] = v[2][k] - v[0][k];
-    }
-    gni_cross(plane, a, b);
-    plane[3] = -gni_dot(plane, v[0]);
-    return gni_dot(plane, plane) > 0.0;
-}
-
 int gni_lit_side(const gni_draft *d, uint32_t object_index, double plane[4])
 {
     const gn_camera *camera = &d->scene->camera;
     const gn_object *object = &d->scene->objects[object_index];
     const double *light = d->bounds.light;
-    const double front = d->objects[object_index].mirrored ? -1.0 : 1.0;
     double of_light, of_eye;
 
-    if (!(object->flags & GN_DRAWN) || !plane_in_view(object, camera, plane))
+    if (!gni_plane_in_view(object, camera, plane))
         return 0;
     of_light = gni_dot(plane, light) + plane[3] * light[3];
-    of_eye = camera->orthographic ? plane[2] : plane[3]; /* the eye is at 0 0 0, or infinitely far along z */
-    if (!(object->flags & GN_DRAWN_BACKS) && !(object->mesh->info.planar == 2 && front * of_eye > 0.0))
+    of_eye = gni_eye_side(camera, plane);
+    if (!gni_shows_side(object, d->objects[object_index].mirrored, of_eye))
         return 0;
     if (of_light < 0.0)
         for (int k = 0; k < 4; k++)
@@ -78,33 +52,59 @@ static int border_is_unseen(const gni_draft *d, uint32_t object)
     return 1;
 }
 
-static int lies_before(const gni_hull *box, const double plane[4])
+/* Whether the ball around a box lies outside the cone of rays through another, or beside its cylinder if the light is
+ * directional, or before it: cheap, and mostly the answer. */
+static int ball_misses(const double caster[4], const double light[4], const double other[4])
 {
-    double least = INFINITY, scale = fabs(plane[3]);
+    double axis[3], to[3], along, square, sine, across;
 
-    for (int i = 0; i < 8; i++) {
-        least = fmin(least, gni_dot(plane, box->points[i]) + plane[3]);
-        for (int k = 0; k < 3; k++)
-            scale = fmax(scale, fabs(plane[k] * box->points[i][k]));
+    for (int k = 0; k < 3; k++) {
+        axis[k] = caster[k] * light[3] - light[k];
+        to[k] = other[k] - (light[3] == 0.0 ? caster[k] : light[k]);
     }
-    return least >= -GNI_MARGIN * scale;
+    square = gni_dot(axis, axis);
+    along = gni_dot(axis, to) / sqrt(square);
+    across = sqrt(fmax(gni_dot(to, to) - along * along, 0.0));
+    if (light[3] == 0.0)
+        return across > (caster[3] + other[3]) * (1.0 + GNI_MARGIN) || along < -(caster[3] + other[3]) * (1.0 + GNI_MARGIN);
+    sine = caster[3] / sqrt(square);
+    if (!(sine < 0.95))
+        return 0;
+    /* from the other's middle to the cone, at right angles to its side */
+    return across * sqrt(1.0 - sine * sine) - along * sine > other[3] * (1.0 + GNI_MARGIN);
 }
 
-int gni_shadows_anything(const gni_draft *d, uint32_t object, const gni_hull *volume, const double *plane)
+static int is_touched(const gni_draft *d, uint32_t caster, const gni_hull *volume, uint32_t other)
 {
-    const double *light = d->bounds.light;
+    return !ball_misses(d->balls[caster], d->bounds.light, d->balls[other]) &&
+           !gni_volume_misses(volume, d->bounds.light, &d->boxes[other]);
+}
+
+/* Whether the caster's volume need not cover the object: it is a patch, and the caster spares or fans it. */
+static int is_patched(const gni_extent *e, const gni_draft *d, uint32_t object)
+{
+    const uint32_t patch = d->objects[object].patch;
+
+    return patch && e->on[patch - 1] != GNI_FILLS_PATCH;
+}
+
+int gni_find_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume, const double *plane)
+{
+    const gni_hull *box = &d->boxes[object];
     int is_flat;
 
+    gni_start_extent(e, d, box);
     if (!d->receivers_are_known)
         return 1;
     is_flat = plane && border_is_unseen(d, object);
-    if (!is_flat && d->is_in[object] & GNI_IN_LIT && d->scene->objects[object].flags & GN_RECEIVES)
-        return 1; /* itself */
-    if (gni_volume_misses(volume, light, &d->all_lit))
+    if (!is_flat && d->is_in[object] & GNI_IN_LIT && d->scene->objects[object].flags & GN_RECEIVES &&
+        !is_patched(e, d, object))
+        gni_touch(e, box, d->rectangles[object]); /* itself */
+    if (e->touched == 0 && gni_volume_misses(volume, d->bounds.light, &d->all_lit))
         return 0;
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (i != object && d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
-            !(is_flat && lies_before(&d->boxes[i], plane)) && !gni_volume_misses(volume, light, &d->boxes[i]))
-            return 1;
-    return 0;
+            !is_patched(e, d, i) && !(is_flat && gni_lies_before(&d->boxes[i], plane)) && is_touched(d, object, volume, i))
+            gni_touch(e, &d->boxes[i], d->rectangles[i]);
+    return e->touched > 0 && gni_end_extent(e, d, box, volume);
 }

@@ -103,30 +103,44 @@ static void row_by_matrix(double row[4], const double m[16])
     memcpy(row, out, sizeof out);
 }
 
-/* Adds the silhouette of a record to the differences between bins. 0 where an end has no place among them. */
-static int add_sides(const gni_draft *d, const gn_record *r, const bins *in_view, int32_t differences[GNI_BINS + 1])
+/* Adds an edge between two of a chunk's vertices to the differences between bins. 0 where an end has no place among
+ * them. */
+static int add_edge(const bins *b, const gn_mesh *mesh, const uint32_t *vertices, uint32_t from, uint32_t to,
+                    int32_t differences[GNI_BINS + 1])
+{
+    const double x = at_vertex(b, mesh->positions + 3 * (size_t)vertices[from / 2u]);
+    const double y = at_vertex(b, mesh->positions + 3 * (size_t)vertices[to / 2u]);
+
+    if (!(x >= -1.0 && x <= GNI_BINS + 1.0 && y >= -1.0 && y <= GNI_BINS + 1.0))
+        return 0;
+    differences[(int)fmin(fmax((x < y ? x : y) - LOOSE, 0.0), GNI_BINS - 1.0)]++;
+    differences[(int)fmin(fmax((x < y ? y : x) + LOOSE, 0.0), GNI_BINS - 1.0) + 1]--;
+    return 1;
+}
+
+/* Adds the silhouette of a record: that which its sides stand on, or its fan on a patch; or the edges of its cap there. */
+static int add_record(const gni_draft *d, const gn_record *r, const bins *in_view, int32_t differences[GNI_BINS + 1])
 {
     const gn_object *object = &d->scene->objects[r->object];
     const gn_mesh *mesh = object->mesh;
     const uint32_t *vertices = mesh->chunk_vertices + mesh->chunks[r->chunk].first_vertex;
     const uint32_t a_side = r->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? 3 : 6;
+    const uint16_t *index = d->indices + r->first_index;
     double model_view[16];
     bins b = *in_view;
+    int all_fit = 1;
 
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
     row_by_matrix(b.along, model_view);
     row_by_matrix(b.depth, model_view);
-    for (uint32_t i = 0; i < r->side_count; i += a_side) {
-        const uint16_t *side = d->indices + r->first_index + i; /* its first two are its near vertices */
-        const double x = at_vertex(&b, mesh->positions + 3 * (size_t)vertices[side[0] / 2u]);
-        const double y = at_vertex(&b, mesh->positions + 3 * (size_t)vertices[side[1] / 2u]);
-
-        if (!(x >= -1.0 && x <= GNI_BINS + 1.0 && y >= -1.0 && y <= GNI_BINS + 1.0))
-            return 0;
-        differences[(int)fmax((x < y ? x : y) - LOOSE, 0.0)]++;
-        differences[(int)fmin((x < y ? y : x) + LOOSE, GNI_BINS - 1.0) + 1]--;
+    for (uint32_t i = 0; i < r->side_count; i += a_side) /* its first two are its near vertices */
+        all_fit &= add_edge(&b, mesh, vertices, index[i], index[i + 1], differences);
+    for (uint32_t i = 0; i < r->dark_cap_count && r->patch; i += 3) {
+        all_fit &= add_edge(&b, mesh, vertices, index[i + 1], index[i + 2], differences);
+        for (uint32_t k = 0; k < 2 && !r->fan; k++)
+            all_fit &= add_edge(&b, mesh, vertices, index[i + 2 * k], index[i + (1 - k)], differences);
     }
-    return 1;
+    return all_fit;
 }
 
 uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record)
@@ -138,7 +152,7 @@ uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record)
         return UINT32_MAX;
     memset(d->layers->bins, 0, sizeof d->layers->bins);
     for (uint32_t i = first_record; i < d->plan->record_count; i++)
-        if (!add_sides(d, &d->records[i], &b, differences))
+        if (!add_record(d, &d->records[i], &b, differences))
             return UINT32_MAX;
     for (int i = 0; i < GNI_BINS; i++) {
         crossed += differences[i];

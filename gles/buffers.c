@@ -29,23 +29,52 @@ const gni_upload *gni_find_upload(const gn_gles *g, const gn_mesh *mesh)
     return at < g->upload_count && g->uploads[at].mesh == mesh ? &g->uploads[at] : NULL;
 }
 
+/* A vertex of a chunk; its hub after the last. */
+static const float *vertex_of(const gn_mesh_info *info, const gn_chunk *chunk, uint32_t vertex)
+{
+    return vertex < chunk->vertex_count
+               ? info->positions + 3 * (size_t)info->chunk_vertices[chunk->first_vertex + vertex]
+               : info->hub;
+}
+
 static void send_vertices(const gn_gl *gl, const gn_mesh_info *info)
 {
     const gn_chunk *last = &info->chunks[info->chunk_count - 1];
-    const uint32_t count = last->first_vertex + last->vertex_count;
+    uint32_t at = 0;
     float batch[BATCH][2][4];
 
-    gl->glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof batch[0]), NULL, GL_STATIC_DRAW);
-    for (uint32_t first = 0; first < count; first += BATCH) {
-        const uint32_t n = count - first < BATCH ? count - first : BATCH;
+    gl->glBufferData(GL_ARRAY_BUFFER,
+                     (GLsizeiptr)((last->first_vertex + last->vertex_count + info->chunk_count) * sizeof batch[0]), NULL,
+                     GL_STATIC_DRAW);
+    for (uint32_t c = 0; c < info->chunk_count; c++)
+        for (uint32_t first = 0; first <= info->chunks[c].vertex_count; first += BATCH) {
+            const uint32_t rest = info->chunks[c].vertex_count + 1 - first, n = rest < BATCH ? rest : BATCH;
 
-        for (uint32_t i = 0; i < n; i++)
-            for (int far = 0; far < 2; far++) {
-                memcpy(batch[i][far], info->positions + 3 * (size_t)info->chunk_vertices[first + i], 3 * sizeof(float));
-                batch[i][far][3] = far ? 0.0f : 1.0f;
-            }
-        gl->glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)(first * sizeof batch[0]), (GLsizeiptr)(n * sizeof batch[0]),
-                            batch);
+            for (uint32_t i = 0; i < n; i++)
+                for (int far = 0; far < 2; far++) {
+                    memcpy(batch[i][far], vertex_of(info, &info->chunks[c], first + i), 3 * sizeof(float));
+                    batch[i][far][3] = far ? 0.0f : 1.0f;
+                }
+            gl->glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)(at * sizeof batch[0]), (GLsizeiptr)(n * sizeof batch[0]),
+                                batch);
+            at += n;
+        }
+}
+
+/* Every triangle by its near vertices. */
+static void send_surface(const gn_gl *gl, const gn_mesh_info *info)
+{
+    const size_t count = 3 * (size_t)info->triangle_count;
+    uint16_t batch[BATCH];
+
+    gl->glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof batch[0]), NULL, GL_STATIC_DRAW);
+    for (size_t first = 0; first < count; first += BATCH) {
+        const size_t n = count - first < BATCH ? count - first : BATCH;
+
+        for (size_t i = 0; i < n; i++)
+            batch[i] = (uint16_t)(2 * info->corners[first + i]);
+        gl->glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * sizeof batch[0]),
+                            (GLsizeiptr)(n * sizeof batch[0]), batch);
     }
 }
 
@@ -53,7 +82,7 @@ gn_result gn_gles_upload(gn_gles *g, const gn_mesh *mesh)
 {
     const gn_gl *gl;
     uint32_t at;
-    GLuint buffer = 0;
+    GLuint buffers[2] = {0, 0};
 
     if (!g || !mesh)
         return gn_fail(g ? g->context : NULL, GN_E_ARG, "gn_gles_upload: NULL argument");
@@ -72,20 +101,30 @@ gn_result gn_gles_upload(gn_gles *g, const gn_mesh *mesh)
         g->uploads = grown;
         g->upload_capacity = capacity;
     }
-    gl->glGenBuffers(1, &buffer);
-    gl->glBindBuffer(GL_ARRAY_BUFFER, buffer);
+    gl->glGenBuffers(2, buffers);
+    gl->glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
     send_vertices(gl, gn_mesh_get_info(mesh));
+    send_surface(gl, gn_mesh_get_info(mesh));
     gl->glBindBuffer(GL_ARRAY_BUFFER, 0);
+    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
     if (gl->glGetError() != GL_NO_ERROR) {
-        gl->glDeleteBuffers(1, &buffer);
+        gl->glDeleteBuffers(2, buffers);
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_upload: the GL has no room for %lu vertices",
                        (unsigned long)gn_mesh_get_info(mesh)->vertex_count);
     }
     at = place_of(g, mesh);
     memmove(g->uploads + at + 1, g->uploads + at, (g->upload_count - at) * sizeof *g->uploads);
-    g->uploads[at] = (gni_upload){mesh, buffer};
+    g->uploads[at] = (gni_upload){mesh, buffers[0], buffers[1]};
     g->upload_count++;
     return GN_OK;
+}
+
+void gni_delete_upload(gn_gles *g, const gni_upload *upload)
+{
+    const GLuint buffers[2] = {upload->buffer, upload->surface};
+
+    g->gl.glDeleteBuffers(2, buffers);
 }
 
 void gn_gles_unload(gn_gles *g, const gn_mesh *mesh)
@@ -96,7 +135,7 @@ void gn_gles_unload(gn_gles *g, const gn_mesh *mesh)
     if (!upload)
         return;
     if (!g->forgotten)
-        g->gl.glDeleteBuffers(1, &upload->buffer);
+        gni_delete_upload(g, upload);
     g->upload_count--;
     memmove(g->uploads + at, g->uploads + at + 1, (g->upload_count - at) * sizeof *g->uploads);
 }

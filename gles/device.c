@@ -92,7 +92,7 @@ void gn_gles_destroy(gn_gles *g)
         return;
     if (!g->forgotten) {
         for (uint32_t i = 0; i < g->upload_count; i++)
-            g->gl.glDeleteBuffers(1, &g->uploads[i].buffer);
+            gni_delete_upload(g, &g->uploads[i]);
         g->gl.glDeleteBuffers(1, &g->quad);
         g->gl.glDeleteBuffers(1, &g->indices);
         g->gl.glDeleteProgram(g->program);

@@ -26,7 +26,7 @@ typedef struct gni_state {
 
 typedef struct gni_upload {
     const gn_mesh *mesh;
-    GLuint buffer;
+    GLuint buffer, surface; /* vertices; indices of all triangles as they are drawn */
 } gni_upload;
 
 /* Of extensions that gl2.h does not know; desktop OpenGL has the same numbers. */
@@ -78,12 +78,14 @@ GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const
 
 /* buffers.c */
 const gni_upload *gni_find_upload(const gn_gles *g, const gn_mesh *mesh);
+void gni_delete_upload(gn_gles *g, const gni_upload *upload);
 
 /* volumes.c: draws records with the state as it is; `turned` draws the part of the caps that counts the other way
  * round. */
 void gni_begin_volumes(gn_gles *g, const float color[4]);
 void gni_begin_sided_volumes(gn_gles *g); /* without colour, by the program that discards */
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *record, int turned);
+void gni_draw_surface(gn_gles *g, const gn_plan_object *object); /* the object itself, by the same program */
 void gni_end_volumes(gn_gles *g);
 
 /* host_state.c: keeps what proofs disturb, and puts it back. */

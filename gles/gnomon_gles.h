@@ -113,7 +113,7 @@ gn_result gn_gles_begin(gn_gles *gl, const gn_plan *plan);
 /* Does what the plan says up to the next step that is the host's. Returns 1 with that step, or 0 at the frame's end. */
 int gn_gles_next(gn_gles *gl, gn_step *step);
 
-/* Draws the volumes of some records of the plan last begun in one colour, each in its light's scissor, to look at or to
+/* Draws the volumes of some records of the plan last begun in one colour, each in its scissor, to look at or to
  * count. Depth, stencil, blending, masks and culling are the host's; depth clamp is on where a record needs it and off
  * afterwards; scissor, program, buffers and attribute arrays as on exit above. */
 void gn_gles_draw_volumes(gn_gles *gl, const gn_plan *plan, uint32_t first_record, uint32_t record_count,

@@ -96,7 +96,7 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         gl->glPolygonOffset(0.0f, (GLfloat)wanted->offset);
         last->offset = wanted->offset;
     }
-    if (wanted->scissor && wanted->scissor != last->scissor) {
+    if (wanted->scissor && (!last->scissor || memcmp(wanted->scissor, last->scissor, 4 * sizeof *last->scissor) != 0)) {
         const uint32_t *at = wanted->scissor;
 
         gl->glScissor((GLint)at[0], (GLint)at[1], (GLsizei)at[2], (GLsizei)at[3]);

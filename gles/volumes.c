@@ -24,20 +24,41 @@ void gni_begin_volumes(gn_gles *g, const float color[4])
     gl->glEnableVertexAttribArray(0);
 }
 
+/* Attribute 0 at a chunk; before each chunk stand the hubs of those before it. */
+static void point_at(gn_gles *g, const gn_mesh *mesh, uint32_t chunk)
+{
+    const uint32_t vertex = gn_mesh_get_info(mesh)->chunks[chunk].first_vertex + chunk;
+
+    g->gl.glBindBuffer(GL_ARRAY_BUFFER, gni_find_upload(g, mesh)->buffer);
+    g->gl.glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float),
+                                (const void *)((uintptr_t)vertex * 8 * sizeof(float)));
+}
+
+void gni_draw_surface(gn_gles *g, const gn_plan_object *object)
+{
+    const gn_gl *gl = &g->gl;
+    const gn_mesh_info *info = gn_mesh_get_info(object->mesh);
+
+    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gni_find_upload(g, object->mesh)->surface);
+    gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, object->matrix);
+    for (uint32_t c = 0; c < info->chunk_count; c++) {
+        point_at(g, object->mesh, c);
+        gl->glDrawElements(GL_TRIANGLES, (GLsizei)(3 * info->chunks[c].triangle_count), GL_UNSIGNED_SHORT,
+                           (const void *)((uintptr_t)info->chunks[c].first_triangle * 3 * sizeof(uint16_t)));
+    }
+}
+
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int turned)
 {
     const gn_gl *gl = &g->gl;
     const gn_plan_object *object = &plan->objects[r->object];
-    const gn_chunk *chunk = &gn_mesh_get_info(object->mesh)->chunks[r->chunk];
     const uint32_t upright = r->side_count + r->dark_cap_count + r->light_cap_count;
     const uint32_t first = r->first_index + (turned ? upright : 0);
     const uint32_t count = turned ? r->turned_cap_count : upright;
 
     if (count == 0)
         return;
-    gl->glBindBuffer(GL_ARRAY_BUFFER, gni_find_upload(g, object->mesh)->buffer);
-    gl->glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float),
-                              (const void *)((uintptr_t)chunk->first_vertex * 8 * sizeof(float)));
+    point_at(g, object->mesh, r->chunk);
     gl->glUniformMatrix4fv(g->is_sided ? g->sided_near : g->near_matrix, 1, GL_FALSE, object->matrix);
     gl->glUniformMatrix4fv(g->is_sided ? g->sided_far : g->far_matrix, 1, GL_FALSE, r->far_matrix);
     gl->glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_SHORT,
@@ -60,7 +81,7 @@ void gn_gles_draw_volumes(gn_gles *g, const gn_plan *plan, uint32_t first_record
     gni_begin_volumes(g, color);
     for (uint32_t i = first_record; i < first_record + record_count && i < plan->record_count; i++) {
         const int clamped = plan->records[i].far_end == GN_FAR_CLAMPED;
-        const uint32_t *at = plan->lights[plan->records[i].light].scissor;
+        const uint32_t *at = plan->records[i].scissor;
 
         g->gl.glEnable(GL_SCISSOR_TEST);
         g->gl.glScissor((GLint)at[0], (GLint)at[1], (GLsizei)at[2], (GLsizei)at[3]);

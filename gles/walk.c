@@ -27,12 +27,12 @@ static const gni_state final = {.color_write = GL_TRUE,
                                 .blend_destination = GL_ONE_MINUS_SRC_ALPHA};
 static const gni_state unmasked = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .stencil_write = ~0u};
 
-/* Nothing outside a light's bounds is lit: its passes stay in its scissor, and where the driver can within its
- * depths. */
-static void bound(gni_state *s, const gn_plan *plan, const gn_plan_light *l)
+/* Nothing outside a light's bounds is lit: its passes stay in its scissor or in one within, and where the driver can
+ * within its depths. */
+static void bound(gni_state *s, const gn_plan *plan, const gn_plan_light *l, const uint32_t scissor[4])
 {
-    if (l->scissor[2] < plan->target.width || l->scissor[3] < plan->target.height)
-        s->scissor = l->scissor;
+    if (scissor[2] < plan->target.width || scissor[3] < plan->target.height)
+        s->scissor = scissor;
     if (l->depth_bounds[0] > 0.0 || l->depth_bounds[1] < 1.0)
         s->bounds = l->depth_bounds;
 }
@@ -44,19 +44,19 @@ static gni_state light_under_mask(const gn_plan *plan, const gn_plan_light *l)
 
     s.stencil_func = GL_EQUAL;
     s.stencil_reference = l->stencil.reference;
-    s.stencil_mask = ~0u;
+    s.stencil_mask = (GLuint)l->stencil.mask;
     if (plan->blend_once) {
-        s.stencil_write = ~0u;
+        s.stencil_write = (GLuint)l->stencil.mask;
         s.front = s.back = lit_once;
     }
     return s;
 }
 
-/* The quad that makes every count the reference again. */
+/* The quad that makes every count the reference again; names of patches stay. */
 static gni_state reset(const gn_stencil_layout *layout)
 {
     static const gni_face replace = {GL_REPLACE, GL_REPLACE};
-    const gni_state s = {.stencil_write = ~0u,
+    const gni_state s = {.stencil_write = layout->patch_bits ? (GLuint)layout->mask : ~0u,
                          .stencil_func = GL_ALWAYS,
                          .stencil_reference = layout->reference,
                          .stencil_mask = ~0u,
@@ -77,6 +77,45 @@ static gni_state fold(const gn_stencil_layout *layout)
     return s;
 }
 
+static GLint name_of(const gn_stencil_layout *layout, uint32_t patch)
+{
+    return (GLint)(patch << layout->bits);
+}
+
+/* The bits above the count. */
+static GLuint name_mask(const gn_stencil_layout *layout)
+{
+    return ((1u << layout->patch_bits) - 1u) << layout->bits;
+}
+
+/* The quad that counts once all that is seen of a patch. */
+static gni_state darken(const gn_stencil_layout *layout, uint32_t patch)
+{
+    gni_state s = reset(layout);
+
+    s.stencil_func = GL_EQUAL;
+    s.stencil_reference = name_of(layout, patch) | 1;
+    s.stencil_mask = name_mask(layout);
+    return s;
+}
+
+/* A patch's own triangles, where they are what is seen: a step of depth nearer they are not behind it, and it is not
+ * behind them. */
+static gni_state mark(const gn_stencil_layout *layout, uint32_t patch)
+{
+    static const gni_face replace = {0, GL_REPLACE};
+    const gni_state s = {.stencil_write = name_mask(layout),
+                         .depth_func = GL_LEQUAL,
+                         .stencil_func = GL_ALWAYS,
+                         .stencil_reference = name_of(layout, patch),
+                         .stencil_mask = ~0u,
+                         .front = replace,
+                         .back = replace,
+                         .offset = -1};
+
+    return s;
+}
+
 /* Which faces a draw counts: both at once where stencil is two-sided, else those that count up, then the others. */
 typedef enum half { BOTH, RISING, FALLING } half;
 
@@ -88,13 +127,19 @@ static int is_swapped(const gn_record *r, int turned)
 
 static int is_zfail(const gn_record *r)
 {
-    return r->mcguire_case != 1;
+    return r->mcguire_case > 1;
+}
+
+/* Whether backs count up. The end of a volume on a patch is seen from inside. */
+static int backs_rise(const gn_record *r, int turned)
+{
+    return (is_zfail(r) || r->patch) != is_swapped(r, turned);
 }
 
 /* One side at a time: whether this half is the back faces. */
 static int shows_backs(const gn_record *r, int turned, half h)
 {
-    return (h == RISING) == (is_zfail(r) != is_swapped(r, turned));
+    return (h == RISING) == backs_rise(r, turned);
 }
 
 static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, half h)
@@ -103,8 +148,7 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, h
     const int zfail = is_zfail(r);
     const GLenum up = layout->wrap ? GL_INCR_WRAP : GL_INCR, down = layout->wrap ? GL_DECR_WRAP : GL_DECR;
     const gni_face rise = {zfail ? up : 0, zfail ? 0 : up}, fall = {zfail ? down : 0, zfail ? 0 : down};
-    const int backs_rise = zfail != is_swapped(r, turned);
-    gni_state s = {.stencil_write = ~0u,
+    gni_state s = {.stencil_write = layout->patch_bits ? (GLuint)layout->mask : ~0u,
                    .depth_func = GL_LESS,
                    .stencil_func = GL_ALWAYS,
                    .stencil_reference = layout->reference,
@@ -112,15 +156,24 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, h
                    .offset = 1,
                    .clamp = r->far_end == GN_FAR_CLAMPED};
 
+    if (r->patch) {
+        s.depth_func = 0;
+        s.offset = 0;
+        s.stencil_func = GL_EQUAL;
+        s.stencil_reference = name_of(layout, r->patch);
+        s.stencil_mask = name_mask(layout);
+    }
     if (h == BOTH) {
-        s.front = backs_rise ? fall : rise;
-        s.back = backs_rise ? rise : fall;
+        s.front = backs_rise(r, turned) ? fall : rise;
+        s.back = backs_rise(r, turned) ? rise : fall;
     } else {
         s.front = s.back = h == RISING ? rise : fall;
         if (!layout->discard)
             s.cull = shows_backs(r, turned, h) ? GL_FRONT : GL_BACK;
     }
-    bound(&s, plan, &plan->lights[r->light]);
+    bound(&s, plan, &plan->lights[r->light], r->scissor);
+    if (r->patch)
+        s.bounds = NULL; /* of depths that are not tested */
     return s;
 }
 
@@ -154,6 +207,10 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
                            (unsigned long)plan->records[i].object);
         may_switch |= plan->records[i].far_end == GN_FAR_CLAMPED ? GNI_SWITCH_CLAMP : 0u;
     }
+    for (uint32_t i = 0; i < plan->object_count; i++)
+        if (plan->objects[i].patch && !gni_find_upload(g, plan->objects[i].mesh))
+            return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the mesh of object %lu was not uploaded",
+                           (unsigned long)i);
     for (uint32_t i = 0; i < plan->light_count; i++) {
         const gn_plan_light *l = &plan->lights[i];
 
@@ -189,7 +246,7 @@ static void draw_quad(gn_gles *g, const gn_step *step, gni_state state)
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, none[4] = {0, 0, 0, 0};
     const gn_gl *gl = &g->gl;
 
-    bound(&state, g->plan, &g->plan->lights[step->light]);
+    bound(&state, g->plan, &g->plan->lights[step->light], g->plan->lights[step->light].scissor);
     state.bounds = NULL; /* what depth the pixels have does not matter */
     gni_set_state(g, &state);
     gni_begin_volumes(g, none);
@@ -197,6 +254,23 @@ static void draw_quad(gn_gles *g, const gn_step *step, gni_state state)
     gl->glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float), NULL);
     gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, identity);
     gl->glDrawArrays(GL_TRIANGLES, 0, 6);
+    gni_end_volumes(g);
+}
+
+/* Patches, once for all lights that use them. */
+static void mark_patches(gn_gles *g, const gn_step *step)
+{
+    static const float none[4] = {0, 0, 0, 0};
+    const gn_plan *plan = g->plan;
+
+    gni_begin_volumes(g, none);
+    for (uint32_t i = 0; i < plan->object_count; i++)
+        if (plan->objects[i].patch) {
+            const gni_state state = mark(&plan->lights[step->light].stencil, plan->objects[i].patch);
+
+            gni_set_state(g, &state);
+            gni_draw_surface(g, &plan->objects[i]);
+        }
     gni_end_volumes(g);
 }
 
@@ -251,7 +325,7 @@ static gni_state state_for(const gn_plan *plan, const gn_step *step)
         return ambient;
     case GN_DRAW_LIGHT:
         s = step->receivers || plan->blend_once ? light_under_mask(plan, &plan->lights[step->light]) : light;
-        bound(&s, plan, &plan->lights[step->light]);
+        bound(&s, plan, &plan->lights[step->light], plan->lights[step->light].scissor);
         return s;
     default:
         return final;
@@ -277,6 +351,12 @@ int gn_gles_next(gn_gles *g, gn_step *out)
             break;
         case GN_STEP_FOLD:
             draw_quad(g, step, fold(&g->plan->lights[step->light].stencil));
+            break;
+        case GN_STEP_MARK:
+            mark_patches(g, step);
+            break;
+        case GN_STEP_DARKEN:
+            draw_quad(g, step, darken(&g->plan->lights[step->light].stencil, step->patch));
             break;
         case GN_STEP_VOLUMES:
             count_volumes(g, step);

@@ -112,7 +112,7 @@ static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
         return EXIT_FAILED;
     }
     for (uint32_t i = 0; i < s->scene->light_count; i++) {
-        const stage_wish wish = {j->method, j->one_sided, 1, i, 1, 1, 0, 0.0};
+        const stage_wish wish = {j->method, j->one_sided, 1, i, 1, 1, 0, 0.0, 0};
         const int status = stage_plan(s, &wish, message);
 
         if (status != 0 || !stage_draw_mask(s, i, message)) {
@@ -145,7 +145,7 @@ static int write_plan(const stage *s, const char *path)
 /* One frame, drawn and waited for. Returns 0 or an exit status. */
 static int timed_frame(stage *s, const job *j, int casting, double *ms, char message[SCENE_MESSAGE])
 {
-    const stage_wish wish = {j->method, j->one_sided, casting, 0, s->light_count, 0, j->blend_once, j->importance};
+    const stage_wish wish = {j->method, j->one_sided, casting, 0, s->light_count, 0, j->blend_once, j->importance, 0};
     const double start = now_ms();
     const int status = stage_plan(s, &wish, message);
 

@@ -55,7 +55,7 @@ static void masks_are_the_same(void **state)
             stage_pose(s, 0, 0);
             place_camera(&loaded, &rng);
             for (int m = 0; m < 2; m++) {
-                const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1, 1, 0, 0.0};
+                const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1, 1, 0, 0.0, ~0u};
 
                 assert_int_equal(stage_plan(s, &wish, message), 0);
                 assert_true(stage_draw_mask(s, light, message) && platform_read_back(s->platform, rgba[m]));

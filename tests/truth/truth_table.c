@@ -64,19 +64,21 @@ typedef struct way {
     int may_end; /* volumes end; a light that is too near may be refused */
     int finite;  /* the camera has a far plane of its own, at twice the distance of all there is */
     int slivers; /* slivers may be lost: few pixels are wrong, and none of them fails the table */
+    unsigned without; /* of gn_measure */
 } way;
 
 static const way ways[] = {
-    {"zfail", GN_METHOD_ZFAIL, 0, 0, 0, 0, 0},
-    {"zpass", GN_METHOD_ZPASS, 0, 0, 0, 0, 0},
-    {"stencil", GN_METHOD_STENCIL, 0, 1, 0, 0, 0},
-    {"one-sided", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL), 1, 0, 0, 0},
-    {"culled", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_FRONT_FACING), 0, 0, 0, 1},
-    {"saturating", GN_METHOD_ZFAIL, BIT(GN_CAN_STENCIL_WRAP), 1, 0, 0, 0},
-    {"both", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_STENCIL_WRAP), 1, 0, 0, 0},
-    {"ended", GN_METHOD_ZFAIL, BIT(GN_CAN_W0), 0, 0, 0, 0},
-    {"finite", GN_METHOD_ZFAIL, 0, 0, 1, 1, 0},
-    {"finite-end", GN_METHOD_ZFAIL, BIT(GN_CAN_DEPTH_CLAMP), 0, 1, 1, 0},
+    {"zfail", GN_METHOD_ZFAIL, 0, 0, 0, 0, 0, 0},
+    {"zpass", GN_METHOD_ZPASS, 0, 0, 0, 0, 0, 0},
+    {"stencil", GN_METHOD_STENCIL, 0, 0, 0, 0, 0, 0},
+    {"unmeasured", GN_METHOD_STENCIL, 0, 1, 0, 0, 0, ~0u},
+    {"one-sided", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL), 1, 0, 0, 0, 0},
+    {"culled", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_FRONT_FACING), 0, 0, 0, 1, 0},
+    {"saturating", GN_METHOD_ZFAIL, BIT(GN_CAN_STENCIL_WRAP), 1, 0, 0, 0, 0},
+    {"both", GN_METHOD_ZFAIL, BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_STENCIL_WRAP), 1, 0, 0, 0, 0},
+    {"ended", GN_METHOD_ZFAIL, BIT(GN_CAN_W0), 0, 0, 0, 0, 0},
+    {"finite", GN_METHOD_ZFAIL, 0, 0, 1, 1, 0, 0},
+    {"finite-end", GN_METHOD_ZFAIL, BIT(GN_CAN_DEPTH_CLAMP), 0, 1, 1, 0, 0},
 };
 enum { DRIVERS = sizeof drivers / sizeof drivers[0], WAYS = sizeof ways / sizeof ways[0] };
 enum { IS_DRAWN = 4 }; /* in masks, beside lit 1 and visible 2 */
@@ -144,7 +146,7 @@ static int draw_masks(const job *j, scene *loaded, int d)
         stage_pose(s, 0.0, 0.0);
     for (uint32_t light = 0; !failed && light < j->lights; light++)
         for (int w = 0; !failed && w < WAYS; w++) {
-            const stage_wish wish = {ways[w].method, 0, 1, light, 1, 1, 0, 0.0};
+            const stage_wish wish = {ways[w].method, 0, 1, light, 1, 1, 0, 0.0, ways[w].without};
             const size_t at = place_of(j, d, w, light);
             int status;
 

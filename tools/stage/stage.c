@@ -326,6 +326,7 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
     frame.one_sided = wish->one_sided;
     frame.blend_once = wish->blend_once;
     frame.least_light = wish->least_light;
+    frame.without = wish->without;
     size = gn_plan_bound(&frame);
     if (size > s->plan_size) {
         free(s->plan_memory);

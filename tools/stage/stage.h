@@ -107,6 +107,7 @@ typedef struct stage_wish {
     int unbounded;                     /* lights have no range, cone or reach: for masks */
     int blend_once;
     double least_light;
+    unsigned without; /* of gn_measure */
 } stage_wish;
 
 /* Returns 0, or an exit status of the command (1 or 3) with a message. */

@@ -1,0 +1,185 @@
+/* extent.c - how far a caster's volume goes, and where on the image it matters.
+ *
+ * What a volume may shadow is known before it is drawn: the things that receive, are seen and lit, and are not surely
+ * outside it (receivers.c). So it ends on a plane right behind the last of them, and only pixels are counted that lie in
+ * the image of one of them and in the volume's own (CC shadow volumes of Lloyd et al. 2004 do this with tighter and dearer
+ * bounds).
+ *
+ * Such an end is exact under these conditions (DESIGN.md, decision 6): the caster lies strictly between the plane and
+ * its parallel through the light, so that each ray from the light through it reaches the plane behind all that it could
+ * shadow; and the plane lies behind them by more than depth can confuse: several steps of depth at the farthest of them,
+ * seen as flat as the eye sees the plane. Four directions are tried for its normal, from the caster's middle to the
+ * light and the world's three axes (a floor under a lamp ends right below itself), and the end taken that is nearest.
+ * Nothing farther than the light's reach is lit: no end needs to be. */
+#include "gni_plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#define STEPS     8.0    /* of depth behind the last receiver; four are needed */
+#define MOST      1024.0 /* times its distance from the light may a vertex be moved: more loses its direction in floats */
+#define LEAST_SUN 0.02   /* sine of the angle at which a directional light's rays may meet the end */
+
+void gni_join_rectangles(uint32_t a[4], const uint32_t b[4])
+{
+    if (a[2] == 0 || a[3] == 0) {
+        memcpy(a, b, 4 * sizeof *a);
+        return;
+    }
+    for (int i = 0; i < 2 && b[2] > 0 && b[3] > 0; i++) {
+        const uint32_t end = a[i] + a[2 + i] > b[i] + b[2 + i] ? a[i] + a[2 + i] : b[i] + b[2 + i];
+
+        a[i] = a[i] < b[i] ? a[i] : b[i];
+        a[2 + i] = end - a[i];
+    }
+}
+
+void gni_meet_rectangles(uint32_t a[4], const uint32_t b[4])
+{
+    for (int i = 0; i < 2; i++) {
+        const uint32_t low = a[i] > b[i] ? a[i] : b[i];
+        const uint32_t end = a[i] + a[2 + i] < b[i] + b[2 + i] ? a[i] + a[2 + i] : b[i] + b[2 + i];
+
+        a[i] = low;
+        a[2 + i] = end > low ? end - low : 0;
+    }
+}
+
+int gni_do_rectangles_meet(const uint32_t a[4], const uint32_t b[4])
+{
+    return a[0] < b[0] + b[2] && b[0] < a[0] + a[2] && a[1] < b[1] + b[3] && b[1] < a[1] + a[3];
+}
+
+void gni_touch(gni_extent *e, const gni_hull *box, const uint32_t rectangle[4])
+{
+    gni_join_rectangles(e->needed, rectangle);
+    for (int n = 0; n < GNI_NORMALS; n++)
+        for (int i = 0; i < box->point_count; i++)
+            e->lowest[n] = fmin(e->lowest[n], gni_dot(e->normals[n], box->points[i]));
+    for (int i = 0; i < box->point_count; i++) {
+        e->deepest = fmax(e->deepest, -box->points[i][2]);
+        e->greatest = fmax(e->greatest, fmax(fabs(box->points[i][0]), fmax(fabs(box->points[i][1]), fabs(box->points[i][2]))));
+    }
+    e->touched++;
+}
+
+void gni_start_extent(gni_extent *e, const gni_draft *d, const gni_hull *box)
+{
+    const double *light = d->bounds.light;
+
+    e->is_ended = 0;
+    e->touched = 0;
+    e->deepest = -INFINITY;
+    e->greatest = 0.0;
+    memset(e->needed, 0, sizeof e->needed);
+    for (int i = 0; i < box->point_count; i++)
+        for (int k = 0; k < 3; k++)
+            e->greatest = fmax(e->greatest, fabs(box->points[i][k]));
+    for (int n = 0; n < GNI_NORMALS; n++) {
+        double *normal = e->normals[n], length;
+
+        for (int k = 0; k < 3; k++) {
+            const double middle = 0.5 * (box->points[0][k] + box->points[7][k]);
+
+            normal[k] = n == 0 ? light[k] - middle * light[3] : d->view[4 * (n - 1) + k];
+        }
+        length = sqrt(gni_dot(normal, normal));
+        if (n > 0 && gni_dot(normal, e->normals[0]) < 0.0)
+            length = -length;
+        for (int k = 0; k < 3; k++)
+            normal[k] = length != 0.0 ? normal[k] / length : 0.0;
+        e->lowest[n] = INFINITY;
+    }
+    memcpy(e->scissor, d->lights[d->light].scissor, sizeof e->scissor);
+}
+
+/* How much farther from the light the end on a plane is than the caster's farthest corner, at most; INFINITY where the
+ * plane cannot end it. */
+static double length_to(const double normal[3], double lowest, const gni_hull *box, const double light[4])
+{
+    const double of_light = gni_dot(normal, light), from_end = of_light - lowest * light[3];
+    double longest = 0.0, sun = sqrt(gni_dot(light, light));
+
+    for (int i = 0; i < 8; i++) {
+        const double at = gni_dot(normal, box->points[i]), gap = of_light - at * light[3];
+        double spoke[3];
+
+        if (light[3] == 0.0) {
+            if (!(of_light > LEAST_SUN * sun))
+                return INFINITY;
+            longest = fmax(longest, (at - lowest) / of_light * sun);
+            continue;
+        }
+        if (!(gap > 0.0) || !(from_end < MOST * gap))
+            return INFINITY;
+        for (int k = 0; k < 3; k++)
+            spoke[k] = box->points[i][k] - light[k];
+        longest = fmax(longest, (from_end / gap - 1.0) * sqrt(gni_dot(spoke, spoke)));
+    }
+    return longest;
+}
+
+/* The caster's box and its end. */
+static void ended_hull(gni_hull *out, const gni_extent *e, const gni_hull *box, const double light[4])
+{
+    double extrusion[16];
+
+    gni_extrusion(extrusion, light, e->end_plane);
+    *out = *box;
+    out->point_count = 16;
+    for (int i = 0; i < 8; i++) {
+        const double *p = box->points[i];
+        const double w = gni_dot(e->end_plane, light) + e->end_plane[3] * light[3] -
+                         light[3] * (gni_dot(e->end_plane, p) + e->end_plane[3]);
+
+        gn_mat4_transform(out->points[8 + i], extrusion, p, 1.0);
+        for (int k = 0; k < 3; k++)
+            out->points[8 + i][k] /= w;
+    }
+}
+
+static void choose_end(gni_extent *e, const gni_draft *d, const gni_hull *box)
+{
+    const gn_camera *camera = &d->scene->camera;
+    const double *light = d->bounds.light;
+    const double depth = camera->zfar != 0.0 ? fmin(e->deepest, camera->zfar) : e->deepest;
+    const double steps = STEPS * fmax(depth, camera->znear) / ldexp(camera->znear, d->scene->target.depth_bits);
+    double best = INFINITY;
+
+    for (int n = 0; n < GNI_NORMALS; n++) {
+        const double *normal = e->normals[n], of_light = gni_dot(normal, light);
+        double lowest = e->lowest[n], own = INFINITY, length;
+
+        for (int i = 0; i < 8; i++)
+            own = fmin(own, gni_dot(normal, box->points[i]));
+        if (light[3] != 0.0 && d->bounds.reach < INFINITY)
+            lowest = fmax(lowest, of_light - d->bounds.reach);
+        lowest = fmin(lowest, own);
+        lowest -= fabs(lowest) * steps + GNI_MARGIN * 8.0 * e->greatest;
+        lowest -= fabs(lowest) * steps; /* the end is farther from the eye now */
+        length = length_to(normal, lowest, box, light);
+        if (length < best) {
+            best = length;
+            memcpy(e->end_plane, normal, 3 * sizeof *normal);
+            e->end_plane[3] = -lowest;
+        }
+    }
+    e->is_ended = best < INFINITY;
+}
+
+int gni_end_extent(gni_extent *e, const gni_draft *d, const gni_hull *box, gni_hull *volume)
+{
+    const unsigned without = d->scene->without;
+    uint32_t seen[4];
+
+    if (!(without & GN_MEASURE_ENDS) && !d->region && e->touched > 0)
+        choose_end(e, d, box);
+    if (e->is_ended)
+        ended_hull(volume, e, box, d->bounds.light);
+    if (without & GN_MEASURE_SCISSORS)
+        return 1;
+    gni_find_rectangle(seen, volume, &d->scene->camera, &d->scene->target);
+    gni_meet_rectangles(e->scissor, seen);
+    gni_meet_rectangles(e->scissor, e->needed);
+    return e->scissor[2] > 0 && e->scissor[3] > 0;
+}
