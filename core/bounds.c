@@ -276,6 +276,14 @@ void gni_find_rectangle(uint32_t out[4], const gni_hull *hull, const gn_camera *
         memset(out, 0, 4 * sizeof *out);
 }
 
+void gni_find_ball_rectangle(uint32_t out[4], const double ball[4], const gn_camera *camera, const gn_target *target)
+{
+    const patch p = project_sphere(ball, ball[3], camera);
+
+    if (!find_pixels(out, &p, camera, target))
+        memset(out, 0, 4 * sizeof *out);
+}
+
 static void find_scissor(gni_bounds *b, const patch *p, const gn_camera *camera, const gn_target *target)
 {
     if (!find_pixels(b->scissor, p, camera, target))

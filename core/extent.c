@@ -18,6 +18,7 @@
 
 #define STEPS     8.0    /* of depth behind the last receiver; four are needed */
 #define MOST      1024.0 /* times its distance from the light may a vertex be moved: more loses its direction in floats */
+#define WORTH     (1.0 / 32.0) /* of the target's pixels must a scissor cut off: changing it is not free everywhere */
 #define LEAST_SUN 0.02   /* sine of the angle at which a directional light's rays may meet the end */
 
 void gni_join_rectangles(uint32_t a[4], const uint32_t b[4])
@@ -50,12 +51,23 @@ int gni_do_rectangles_meet(const uint32_t a[4], const uint32_t b[4])
     return a[0] < b[0] + b[2] && b[0] < a[0] + a[2] && a[1] < b[1] + b[3] && b[1] < a[1] + a[3];
 }
 
-void gni_touch(gni_extent *e, const gni_hull *box, const uint32_t rectangle[4])
+/* The least value along a normal of what lies in both box and ball. */
+static double lowest_of(const double normal[3], const gni_hull *box, const double ball[4])
 {
-    gni_join_rectangles(e->needed, rectangle);
+    double lowest = INFINITY;
+
+    for (int i = 0; i < 8; i++)
+        lowest = fmin(lowest, gni_dot(normal, box->points[i]));
+    return fmax(lowest, gni_dot(normal, ball) - ball[3]);
+}
+
+void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object)
+{
+    const gni_hull *box = &d->boxes[object];
+
+    gni_join_rectangles(e->needed, d->rectangles[object]);
     for (int n = 0; n < GNI_NORMALS; n++)
-        for (int i = 0; i < box->point_count; i++)
-            e->lowest[n] = fmin(e->lowest[n], gni_dot(e->normals[n], box->points[i]));
+        e->lowest[n] = fmin(e->lowest[n], lowest_of(e->normals[n], box, d->balls[object]));
     for (int i = 0; i < box->point_count; i++) {
         e->deepest = fmax(e->deepest, -box->points[i][2]);
         e->greatest = fmax(e->greatest, fmax(fabs(box->points[i][0]), fmax(fabs(box->points[i][1]), fabs(box->points[i][2]))));
@@ -63,9 +75,10 @@ void gni_touch(gni_extent *e, const gni_hull *box, const uint32_t rectangle[4])
     e->touched++;
 }
 
-void gni_start_extent(gni_extent *e, const gni_draft *d, const gni_hull *box)
+void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object)
 {
     const double *light = d->bounds.light;
+    const gni_hull *box = &d->boxes[object];
 
     e->is_ended = 0;
     e->touched = 0;
@@ -91,32 +104,26 @@ void gni_start_extent(gni_extent *e, const gni_draft *d, const gni_hull *box)
         e->lowest[n] = INFINITY;
     }
     memcpy(e->scissor, d->lights[d->light].scissor, sizeof e->scissor);
+    memcpy(e->image, e->scissor, sizeof e->image);
 }
 
 /* How much farther from the light the end on a plane is than the caster's farthest corner, at most; INFINITY where the
- * plane cannot end it. */
-static double length_to(const double normal[3], double lowest, const gni_hull *box, const double light[4])
+ * plane cannot end it. highest: of the caster along the normal. */
+static double length_to(const double normal[3], double highest, double lowest, const double ball[4], const double light[4])
 {
-    const double of_light = gni_dot(normal, light), from_end = of_light - lowest * light[3];
-    double longest = 0.0, sun = sqrt(gni_dot(light, light));
+    const double of_light = gni_dot(normal, light), from_end = of_light - lowest, gap = of_light - highest;
+    double spoke[3];
 
-    for (int i = 0; i < 8; i++) {
-        const double at = gni_dot(normal, box->points[i]), gap = of_light - at * light[3];
-        double spoke[3];
+    if (light[3] == 0.0) {
+        const double sun = sqrt(gni_dot(light, light));
 
-        if (light[3] == 0.0) {
-            if (!(of_light > LEAST_SUN * sun))
-                return INFINITY;
-            longest = fmax(longest, (at - lowest) / of_light * sun);
-            continue;
-        }
-        if (!(gap > 0.0) || !(from_end < MOST * gap))
-            return INFINITY;
-        for (int k = 0; k < 3; k++)
-            spoke[k] = box->points[i][k] - light[k];
-        longest = fmax(longest, (from_end / gap - 1.0) * sqrt(gni_dot(spoke, spoke)));
+        return of_light > LEAST_SUN * sun ? (highest - lowest) / of_light * sun : INFINITY;
     }
-    return longest;
+    if (!(gap > 0.0) || !(from_end < MOST * gap))
+        return INFINITY;
+    for (int k = 0; k < 3; k++)
+        spoke[k] = ball[k] - light[k];
+    return (from_end / gap - 1.0) * (sqrt(gni_dot(spoke, spoke)) + ball[3]);
 }
 
 /* The caster's box and its end. */
@@ -138,28 +145,30 @@ static void ended_hull(gni_hull *out, const gni_extent *e, const gni_hull *box, 
     }
 }
 
-static void choose_end(gni_extent *e, const gni_draft *d, const gni_hull *box)
+static void choose_end(gni_extent *e, const gni_draft *d, uint32_t object)
 {
     const gn_camera *camera = &d->scene->camera;
-    const double *light = d->bounds.light;
+    const gni_hull *box = &d->boxes[object];
+    const double *light = d->bounds.light, *ball = d->balls[object];
     const double depth = camera->zfar != 0.0 ? fmin(e->deepest, camera->zfar) : e->deepest;
     const double steps = STEPS * fmax(depth, camera->znear) / ldexp(camera->znear, d->scene->target.depth_bits);
     double best = INFINITY;
 
     for (int n = 0; n < GNI_NORMALS; n++) {
-        const double *normal = e->normals[n], of_light = gni_dot(normal, light);
-        double lowest = e->lowest[n], own = INFINITY, length;
+        const double *normal = e->normals[n], other[3] = {-normal[0], -normal[1], -normal[2]};
+        const double of_light = gni_dot(normal, light), own = lowest_of(normal, box, ball);
+        const double highest = -lowest_of(other, box, ball);
+        double lowest = e->lowest[n], length;
 
-        for (int i = 0; i < 8; i++)
-            own = fmin(own, gni_dot(normal, box->points[i]));
         if (light[3] != 0.0 && d->bounds.reach < INFINITY)
             lowest = fmax(lowest, of_light - d->bounds.reach);
         lowest = fmin(lowest, own);
         lowest -= fabs(lowest) * steps + GNI_MARGIN * 8.0 * e->greatest;
         lowest -= fabs(lowest) * steps; /* the end is farther from the eye now */
-        length = length_to(normal, lowest, box, light);
+        length = length_to(normal, highest, lowest, ball, light);
         if (length < best) {
             best = length;
+            e->greatest_move = light[3] == 0.0 ? length : (of_light - lowest) / (of_light - highest);
             memcpy(e->end_plane, normal, 3 * sizeof *normal);
             e->end_plane[3] = -lowest;
         }
@@ -167,19 +176,58 @@ static void choose_end(gni_extent *e, const gni_draft *d, const gni_hull *box)
     e->is_ended = best < INFINITY;
 }
 
-int gni_end_extent(gni_extent *e, const gni_draft *d, const gni_hull *box, gni_hull *volume)
+/* The ball around the caster, moved as far as any of its vertices may be: the two have the volume between them. */
+static void find_ball_image(uint32_t out[4], const gni_extent *e, const gni_draft *d, uint32_t object)
 {
-    const unsigned without = d->scene->without;
-    uint32_t seen[4];
+    const double *light = d->bounds.light, *ball = d->balls[object], sun = sqrt(gni_dot(light, light));
+    double moved[4];
+    uint32_t of_end[4];
 
-    if (!(without & GN_MEASURE_ENDS) && !d->region && e->touched > 0)
-        choose_end(e, d, box);
+    moved[3] = light[3] == 0.0 ? ball[3] : ball[3] * e->greatest_move;
+    for (int k = 0; k < 3; k++)
+        moved[k] = light[3] == 0.0 ? ball[k] - e->greatest_move * light[k] / sun
+                                   : light[k] + e->greatest_move * (ball[k] - light[k]);
+    if (-ball[2] - ball[3] < d->scene->camera.znear || -moved[2] - moved[3] < d->scene->camera.znear) {
+        memcpy(out, e->scissor, sizeof e->scissor);
+        return;
+    }
+    gni_find_ball_rectangle(out, ball, &d->scene->camera, &d->scene->target);
+    gni_find_ball_rectangle(of_end, moved, &d->scene->camera, &d->scene->target);
+    gni_join_rectangles(out, of_end);
+}
+
+static double area_of(const uint32_t rectangle[4])
+{
+    return (double)rectangle[2] * rectangle[3];
+}
+
+void gni_choose_scissor(uint32_t out[4], const gni_draft *d, const uint32_t image[4], const uint32_t needed[4])
+{
+    const uint32_t *light = d->lights[d->light].scissor;
+    uint32_t drawn[4];
+
+    memcpy(drawn, image, sizeof drawn);
+    memcpy(out, needed, sizeof drawn);
+    gni_meet_rectangles(drawn, light);
+    gni_meet_rectangles(out, drawn);
+    if (out[2] > 0 && out[3] > 0 && (area_of(drawn) - area_of(out) < WORTH * area_of(d->whole) || d->scene->without & GN_MEASURE_SCISSORS))
+        memcpy(out, light, sizeof drawn);
+}
+
+int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume)
+{
+    uint32_t of_ball[4];
+
+    if (!(d->scene->without & GN_MEASURE_ENDS) && !d->region && e->touched > 0)
+        choose_end(e, d, object);
     if (e->is_ended)
-        ended_hull(volume, e, box, d->bounds.light);
-    if (without & GN_MEASURE_SCISSORS)
-        return 1;
-    gni_find_rectangle(seen, volume, &d->scene->camera, &d->scene->target);
-    gni_meet_rectangles(e->scissor, seen);
-    gni_meet_rectangles(e->scissor, e->needed);
-    return e->scissor[2] > 0 && e->scissor[3] > 0;
+        ended_hull(volume, e, &d->boxes[object], d->bounds.light);
+    gni_find_rectangle(e->image, volume, &d->scene->camera, &d->scene->target);
+    if (e->is_ended) {
+        find_ball_image(of_ball, e, d, object);
+        gni_meet_rectangles(e->image, of_ball);
+    }
+    gni_choose_scissor(e->scissor, d, e->image, e->needed);
+    gni_meet_rectangles(e->image, e->scissor);
+    return e->image[2] > 0 && e->image[3] > 0;
 }

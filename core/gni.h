@@ -40,6 +40,7 @@ struct gn_mesh {
         *edge_of; /* [triangle_count][3]: the edge from each corner to the next; GNI_NONE of degenerate triangles */
     uint32_t *chunk_edges; /* [chunk_count + 1]: where a chunk's edges start */
     uint32_t largest;      /* the triangle of the largest area */
+    double radius;         /* of a ball about the hub */
     gni_part *parts;
     uint32_t *part_triangles; /* sorted by part; degenerate triangles are in none */
     uint32_t part_triangle_count;
@@ -197,8 +198,8 @@ double gni_dot(const double a[3], const double b[3]);
 void gni_make_axes(double axes[3][3], const double axis[3]);
 /* The box around a mesh, in view space. */
 void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16]);
-/* Centre and radius of the ball around a box. */
-void gni_find_ball(double out[4], const gni_hull *box);
+/* Centre and radius of a ball around a mesh, whose box is given, in view space. */
+void gni_find_ball(double out[4], const gni_hull *box, const gn_mesh *mesh, const double model_view[16]);
 /* A box along view space's axes. */
 void gni_hull_around(gni_hull *out, const double low[3], const double high[3]);
 /* The box and all that is behind it as the light sees it. */
@@ -257,6 +258,8 @@ typedef struct gni_bounds {
 
 /* Pixels in which the body may be seen, and one more on each side: x, y, width, height; all 0 for none. */
 void gni_find_rectangle(uint32_t out[4], const gni_hull *hull, const gn_camera *camera, const gn_target *target);
+/* The same of a ball: centre, radius. */
+void gni_find_ball_rectangle(uint32_t out[4], const double ball[4], const gn_camera *camera, const gn_target *target);
 /* Of a light that no bound is known of, or asked for. */
 void gni_no_bounds(gni_bounds *out, const gn_scene *scene, const double light[4]);
 /* view: from world to view space. */

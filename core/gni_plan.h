@@ -105,6 +105,7 @@ typedef struct gni_draft {
     uint32_t *order, *parent, *end, *ring;
     uint32_t *cheap_of; /* [object_count] layers of each caster of the light at hand, a cheap bound */
     gni_choice choice;
+    uint32_t whole[4]; /* the target's pixels */
     double projection[16], view[16];
     int receivers_are_known; /* some object is said to receive: then those are all that do */
     gni_stain stain;
@@ -133,6 +134,10 @@ void gni_join_rectangles(uint32_t a[4], const uint32_t b[4]);
 void gni_meet_rectangles(uint32_t a[4], const uint32_t b[4]);
 int gni_do_rectangles_meet(const uint32_t a[4], const uint32_t b[4]);
 
+/* Where something is to be counted whose image and whose use are known: what they have in common, or the light's
+ * scissor where that saves little; nothing where they have nothing in common. */
+void gni_choose_scissor(uint32_t out[4], const gni_draft *d, const uint32_t image[4], const uint32_t needed[4]);
+
 /* extent.c: how far the volume of a caster goes, and where that matters. */
 #define GNI_NORMALS 4 /* of planes that may end it */
 
@@ -141,21 +146,23 @@ typedef struct gni_extent {
     uint32_t shadow[GN_MOST_PATCHES][4]; /* where a fan is seen */
     int is_ended;
     double end_plane[4]; /* view space, positive where the caster is */
-    uint32_t scissor[4]; /* pixels where it must be counted */
+    uint32_t scissor[4]; /* pixels where it must be counted, or more */
+    uint32_t image[4];   /* of them, those in which it may be seen */
 
     /* while it is found */
     double normals[GNI_NORMALS][3], lowest[GNI_NORMALS]; /* of what is touched, along the normals */
     double deepest, greatest;                            /* view distance and coordinate of what is touched */
+    double greatest_move; /* of a vertex to the end: a factor of its distance from the light, or a distance */
     uint32_t touched, needed[4];                         /* how many, and the pixels of their images */
 } gni_extent;
 
-/* box: of the caster. */
-void gni_start_extent(gni_extent *e, const gni_draft *d, const gni_hull *box);
-/* The volume may shadow something in this box, seen in these pixels. */
-void gni_touch(gni_extent *e, const gni_hull *box, const uint32_t rectangle[4]);
+/* Of a caster. */
+void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object);
+/* Its volume may shadow this object. */
+void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object);
 /* Chooses end and scissor. volume: on entry without end; becomes what is drawn. Returns 0 when nothing is seen of
  * what it may shadow. */
-int gni_end_extent(gni_extent *e, const gni_draft *d, const gni_hull *box, gni_hull *volume);
+int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume);
 
 /* patches.c */
 void gni_find_patches(gni_draft *d);
@@ -181,11 +188,12 @@ int gni_find_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull
 typedef struct gni_volume {
     uint32_t object;
     const gni_case *at_hand;
-    const uint32_t *scissor;
+    const gni_extent *extent; /* its scissor and image */
     gn_far far_end;
     const double *end_plane; /* view space; not read where there is a reach */
     double end_reach;
     uint32_t triangles; /* that cast */
+    int unpatched;      /* as in gn_record */
 } gni_volume;
 
 /* plan_volumes.c */

@@ -58,7 +58,22 @@ void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_vi
             out->edges[i][k] = out->points[1 << i][k] - out->points[0][k];
 }
 
-void gni_find_ball(double out[4], const gni_hull *box)
+/* The most that a matrix stretches a length, or a little more: by the greatest row sum of its square (Gershgorin). */
+static double stretch_of(const double m[16])
+{
+    double most = 0.0;
+
+    for (int i = 0; i < 3; i++) {
+        double sum = 0.0;
+
+        for (int j = 0; j < 3; j++)
+            sum += fabs(gni_dot(m + 4 * i, m + 4 * j));
+        most = fmax(most, sum);
+    }
+    return sqrt(most) * (1.0 + GNI_MARGIN);
+}
+
+void gni_find_ball(double out[4], const gni_hull *box, const gn_mesh *mesh, const double model_view[16])
 {
     double square = 0.0;
 
@@ -70,7 +85,7 @@ void gni_find_ball(double out[4], const gni_hull *box)
         square = fmax(square, (p[0] - out[0]) * (p[0] - out[0]) + (p[1] - out[1]) * (p[1] - out[1]) +
                                   (p[2] - out[2]) * (p[2] - out[2]));
     }
-    out[3] = sqrt(square);
+    out[3] = fmin(sqrt(square), stretch_of(model_view) * mesh->radius);
 }
 
 void gni_hull_around(gni_hull *out, const double low[3], const double high[3])

@@ -2,6 +2,7 @@
  * frames. */
 #include "gni.h"
 
+#include <math.h>
 #include <string.h>
 
 void gn_mesh_destroy(gn_mesh *mesh)
@@ -81,6 +82,25 @@ static gn_result make_planes(gn_mesh *mesh)
     return GN_OK;
 }
 
+static void find_hub(gn_mesh *mesh)
+{
+    double square = 0.0;
+
+    for (int axis = 0; axis < 3; axis++) /* halves, since the sum may be too much for a float */
+        mesh->info.hub[axis] = 0.5f * mesh->info.box_min[axis] + 0.5f * mesh->info.box_max[axis];
+    for (uint32_t v = 0; v < mesh->info.vertex_count; v++) {
+        double of_vertex = 0.0;
+
+        for (int axis = 0; axis < 3; axis++) {
+            const double d = (double)mesh->positions[3 * (size_t)v + (size_t)axis] - (double)mesh->info.hub[axis];
+
+            of_vertex += d * d;
+        }
+        square = of_vertex > square ? of_vertex : square;
+    }
+    mesh->radius = sqrt(square);
+}
+
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **out)
 {
     gn_mesh *mesh;
@@ -121,8 +141,7 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
     mesh->info.chunks = mesh->chunks;
     mesh->info.chunk_vertices = mesh->chunk_vertices;
     mesh->info.corners = mesh->corners;
-    for (int axis = 0; axis < 3; axis++) /* halves, since the sum may be too much for a float */
-        mesh->info.hub[axis] = 0.5f * mesh->info.box_min[axis] + 0.5f * mesh->info.box_max[axis];
+    find_hub(mesh);
     *out = mesh;
     return GN_OK;
 }

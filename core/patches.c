@@ -192,7 +192,6 @@ static void find_shadow(uint32_t out[4], const gni_draft *d, const gni_hull *box
             shadow.points[i][k] /= w;
     }
     gni_find_rectangle(out, &shadow, &d->scene->camera, &d->scene->target);
-    gni_meet_rectangles(out, patch->rectangle);
 }
 
 void gni_light_patches(gni_draft *d)
@@ -215,6 +214,7 @@ gni_on_patch gni_cast_on_patch(const gni_draft *d, uint32_t object, const gni_pa
     const double near = FLAT * scale_of(box, patch->plane);
     const int is_sun = d->bounds.light[3] == 0.0;
     double range[2];
+    uint32_t image[4];
     gni_on_patch is;
 
     if (patch->use == GNI_PATCH_DARK)
@@ -232,7 +232,7 @@ gni_on_patch gni_cast_on_patch(const gni_draft *d, uint32_t object, const gni_pa
     }
     if (is != GNI_FANS_PATCH)
         return is;
-    find_shadow(rectangle, d, box, patch);
-    gni_meet_rectangles(rectangle, d->lights[d->light].scissor);
+    find_shadow(image, d, box, patch);
+    gni_choose_scissor(rectangle, d, image, patch->rectangle);
     return rectangle[2] > 0 && rectangle[3] > 0 ? GNI_FANS_PATCH : GNI_SPARES_PATCH;
 }

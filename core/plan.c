@@ -255,19 +255,23 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     static const double identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     static const float no_centre[3] = {0, 0, 0};
     const gn_scene *s = d->scene;
-    const uint32_t whole[4] = {0, 0, s->target.width, s->target.height};
     gn_result result;
 
+    d->whole[2] = s->target.width;
+    d->whole[3] = s->target.height;
     for (uint32_t i = 0; i < s->object_count; i++) {
         double model_view[16];
+        uint32_t of_ball[4];
 
         gni_model_view(model_view, &s->camera, s->objects[i].model, s->objects[i].mesh->info.centre);
         gni_box_hull(&d->boxes[i], &s->objects[i].mesh->info, model_view);
-        gni_find_ball(d->balls[i], &d->boxes[i]);
+        gni_find_ball(d->balls[i], &d->boxes[i], s->objects[i].mesh, model_view);
         gni_find_rectangle(d->rectangles[i], &d->boxes[i], &s->camera, &s->target);
+        gni_find_ball_rectangle(of_ball, d->balls[i], &s->camera, &s->target);
+        gni_meet_rectangles(d->rectangles[i], of_ball);
         d->receivers_are_known |= (s->objects[i].flags & GN_RECEIVES) != 0;
     }
-    gni_make_view(&d->seen, &s->camera, &s->target, whole);
+    gni_make_view(&d->seen, &s->camera, &s->target, d->whole);
     round_near(d, own);
     if (d->region)
         gni_receiver_region(d->region, s);
@@ -277,7 +281,7 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
         d->plan->clear_depth = gni_depth_of(&s->camera, d->plan->depth_range, s->camera.zfar);
     gni_projection(d->projection, &s->camera, d->plan->depth_range);
     gni_model_view(d->view, &s->camera, identity, no_centre);
-    gni_make_view(&d->seen, &s->camera, &s->target, whole);
+    gni_make_view(&d->seen, &s->camera, &s->target, d->whole);
     find_depth_limit(d);
     d->stain.reference = d->choice.stencil.reference;
     result = place_objects(d);

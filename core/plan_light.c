@@ -46,6 +46,7 @@ static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand, g
 
     memset(extent, 0, sizeof *extent); /* all patches are filled */
     memcpy(extent->scissor, d->lights[d->light].scissor, sizeof extent->scissor);
+    memcpy(extent->image, extent->scissor, sizeof extent->image);
     at_hand->is_drawn = (flags & all_drawn) == all_drawn;
     at_hand->number = method == GN_METHOD_ZPASS ? 1 : 3;
     at_hand->seen = GNI_SEES_CASTER | GNI_SEES_FAR | GNI_SEES_VOLUME;
@@ -65,7 +66,7 @@ static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand, g
         extent->on[p] = gni_cast_on_patch(d, object, &d->patches[p], extent->shadow[p]);
     if (!gni_find_extent(extent, d, object, &volume, is_flat ? plane : NULL))
         return GN_SKIP_NO_RECEIVER;
-    gni_make_view(&view, &d->scene->camera, &d->scene->target, extent->scissor);
+    gni_make_view(&view, &d->scene->camera, &d->scene->target, extent->image);
     gni_find_case(at_hand, &view, &d->boxes[object], &volume, d->bounds.light);
     at_hand->is_drawn = is_flat || (flags & all_drawn) == all_drawn;
     return at_hand->seen & GNI_SEES_VOLUME ? GN_SKIP_NOT : GN_SKIP_NO_RECEIVER;
@@ -238,17 +239,14 @@ static gn_result add_volumes(gni_draft *d)
             prepare_stencil(d);
         result = add_casters(d);
         is_long = !about->stencil.wrap && d->casting_count > (uint64_t)about->stencil.high;
-        if (result != GN_OK || way == 2 || fits(d, plan.record_count))
+        if (result != GN_OK || way == 2 ||
+            (fits(d, plan.record_count) && (way == 1 || d->flat_count || d->are_marked || any_is_dark(d))))
             break;
         if (way == 1 && !d->layers)
             break;
         *d->plan = plan;
         d->stain = before.stain;
         d->are_marked = before.are_marked;
-    }
-    if (d->uses_patches && !d->flat_count && !d->are_marked && !any_is_dark(d)) {
-        d->uses_patches = 0; /* nothing asks for names */
-        about->stencil = layout;
     }
     if (!d->is_batched)
         prepare_stencil(d);

@@ -19,12 +19,12 @@ static int is_end_crossed(const gni_draft *d, const gni_volume *v)
         return 0;
     if (d->region || !d->receivers_are_known)
         return 1;
-    gni_make_view(&view, &d->scene->camera, &d->scene->target, v->scissor);
+    gni_make_view(&view, &d->scene->camera, &d->scene->target, v->extent->image);
     if (!gni_is_before(&view.near_rectangle, v->end_plane))
         return 1;
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
-            gni_do_rectangles_meet(d->rectangles[i], v->scissor) && !gni_is_before(&d->boxes[i], v->end_plane))
+            !(v->unpatched && d->objects[i].patch) && gni_do_rectangles_meet(d->rectangles[i], v->extent->image) && !gni_is_before(&d->boxes[i], v->end_plane))
             return 1;
     return 0;
 }
@@ -83,7 +83,8 @@ static void scale_like(double m[16], const double near_matrix[16])
 }
 
 /* A record of a volume before its indices. */
-static void start_record(gn_record *r, const gni_draft *d, const gni_volume *v, uint32_t chunk)
+static void start_record(gn_record *r, const gni_draft *d, const gni_volume *v, const uint32_t scissor[4],
+                         uint32_t chunk)
 {
     const gn_object *object = &d->scene->objects[v->object];
     double model_view[16], near_matrix[16], extrusion[16], far_matrix[16];
@@ -107,8 +108,9 @@ static void start_record(gn_record *r, const gni_draft *d, const gni_volume *v, 
     r->mirrored = d->objects[v->object].mirrored;
     r->far_end = v->far_end;
     r->end_reach = v->end_reach;
+    r->unpatched = v->unpatched;
     r->first_index = d->plan->index_count;
-    memcpy(r->scissor, v->scissor, sizeof r->scissor);
+    memcpy(r->scissor, scissor, sizeof r->scissor);
 }
 
 /* Whether the dark cap of a volume that ends on a plane is better a fan. In several chunks it must be so in all, or in
@@ -150,7 +152,7 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *castin
         gn_record *r = &d->records[d->plan->record_count];
         uint16_t *const out = d->indices + d->plan->index_count, *at = out;
 
-        start_record(r, d, v, c);
+        start_record(r, d, v, v->extent->scissor, c);
         r->mcguire_case = mcguire_case;
         if (parts & GN_SIDES)
             at += r->side_count = gni_put_sides(mesh, c, casting, converges, at);
@@ -235,10 +237,10 @@ void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint
         silhouette += shared.dark_cap_count / 3;
         for (uint32_t p = 0; p < d->patch_count && shared.dark_cap_count; p++)
             if (extent->on[p] == GNI_FANS_PATCH) {
-                const gni_volume v = {object, NULL, extent->shadow[p], GN_FAR_ENDED, d->patches[p].plane, 0.0, triangles};
+                const gni_volume v = {object, NULL, extent, GN_FAR_ENDED, d->patches[p].plane, 0.0, triangles, 0};
                 gn_record *r = &d->flats[d->flat_count++];
 
-                start_record(r, d, &v, c);
+                start_record(r, d, &v, extent->shadow[p], c);
                 r->first_index = shared.first_index;
                 r->dark_cap_count = shared.dark_cap_count;
                 r->parts = GN_DARK_CAP;
@@ -259,10 +261,11 @@ static void add_volume(gni_draft *d, gni_volume *v, const int8_t *casting)
         note_layers(d, v->object, v->triangles, gni_add_records(d, v, casting));
 }
 
-static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, const uint32_t *scissor, gn_far far_end)
+static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent, gn_far far_end,
+                        int unpatched)
 {
     static const double infinity[4] = {0, 0, 0, 1};
-    gni_volume v = {object, at_hand, scissor, far_end, infinity, 0.0, 0};
+    gni_volume v = {object, at_hand, extent, far_end, infinity, 0.0, 0, unpatched};
 
     add_volume(d, &v, d->casting);
 }
@@ -284,7 +287,7 @@ static int is_cut(const gni_draft *d, uint32_t object_index)
 
 /* Nothing ends the volume: an orthographic camera's is left out with a warning, since a light among casters must not
  * stop the frame; elsewhere depth clamp does where it can, or the frame is refused. */
-static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *at_hand, const uint32_t *scissor)
+static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent)
 {
     const gn_camera *camera = &d->scene->camera;
     const gn_target *target = &d->scene->target;
@@ -297,7 +300,7 @@ static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *
         return GN_OK;
     }
     if (clamps && !is_cut(d, object)) {
-        add_endless(d, object, at_hand, scissor, GN_FAR_CLAMPED);
+        add_endless(d, object, at_hand, extent, GN_FAR_CLAMPED, 0);
         return GN_OK;
     }
     if (camera->finite_far)
@@ -315,7 +318,7 @@ static gn_result clamp_or_refuse(gni_draft *d, uint32_t object, const gni_case *
 }
 
 /* A caster's volumes, one for each end. */
-static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *at_hand, const uint32_t *scissor)
+static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *at_hand, const gni_extent *extent)
 {
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
@@ -323,9 +326,9 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
 
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
     if (!gni_choose_ends(d->ends, d->region, mesh, model_view, d->bounds.light, d->casting, d->end_of))
-        return clamp_or_refuse(d, object_index, at_hand, scissor);
+        return clamp_or_refuse(d, object_index, at_hand, extent);
     for (uint32_t p = 0; p < d->ends->count; p++) {
-        gni_volume v = {object_index, at_hand, scissor, GN_FAR_ENDED, d->ends->planes[p], d->ends->reach, 0};
+        gni_volume v = {object_index, at_hand, extent, GN_FAR_ENDED, d->ends->planes[p], d->ends->reach, 0, 0};
         int any = 0;
 
         for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
@@ -340,14 +343,18 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
 
 gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent)
 {
+    int unpatched = d->uses_patches;
+
+    for (uint32_t p = 0; p < d->patch_count; p++)
+        unpatched &= extent->on[p] != GNI_FILLS_PATCH;
     if (d->region)
-        return add_ended(d, object, at_hand, extent->scissor);
+        return add_ended(d, object, at_hand, extent);
     if (extent->is_ended) {
-        gni_volume v = {object, at_hand, extent->scissor, GN_FAR_ENDED, extent->end_plane, 0.0, 0};
+        gni_volume v = {object, at_hand, extent, GN_FAR_ENDED, extent->end_plane, 0.0, 0, unpatched};
 
         add_volume(d, &v, d->casting);
     } else {
-        add_endless(d, object, at_hand, extent->scissor, GN_FAR_INFINITE);
+        add_endless(d, object, at_hand, extent, GN_FAR_INFINITE, unpatched);
     }
     return GN_OK;
 }

@@ -90,21 +90,20 @@ static int is_patched(const gni_extent *e, const gni_draft *d, uint32_t object)
 
 int gni_find_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume, const double *plane)
 {
-    const gni_hull *box = &d->boxes[object];
     int is_flat;
 
-    gni_start_extent(e, d, box);
+    gni_start_extent(e, d, object);
     if (!d->receivers_are_known)
         return 1;
     is_flat = plane && border_is_unseen(d, object);
     if (!is_flat && d->is_in[object] & GNI_IN_LIT && d->scene->objects[object].flags & GN_RECEIVES &&
         !is_patched(e, d, object))
-        gni_touch(e, box, d->rectangles[object]); /* itself */
+        gni_touch(e, d, object); /* itself */
     if (e->touched == 0 && gni_volume_misses(volume, d->bounds.light, &d->all_lit))
         return 0;
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (i != object && d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
             !is_patched(e, d, i) && !(is_flat && gni_lies_before(&d->boxes[i], plane)) && is_touched(d, object, volume, i))
-            gni_touch(e, &d->boxes[i], d->rectangles[i]);
-    return e->touched > 0 && gni_end_extent(e, d, box, volume);
+            gni_touch(e, d, i);
+    return e->touched > 0 && gni_end_extent(e, d, object, volume);
 }

@@ -4,9 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "shaders/flat.frag.h"
-#include "shaders/volume.vert.h"
-
 static gn_result refuse(gn_gles *g, const char *what)
 {
     gn_context *context = g->context;
@@ -63,12 +60,9 @@ gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles 
     }
     g->gl.glGetIntegerv(GL_MAX_VERTEX_ATTRIBS, &arrays);
     g->attribute_arrays = arrays > 0 ? (GLuint)arrays : 8; /* 8 is the least that OpenGL ES 2.0 allows */
-    g->program = gni_make_program(g, "volume", "", gni_shader_volume_vert, gni_shader_flat_frag);
-    if (!g->program)
+    if (!gni_make_flat_program(g, &g->colored, "volume", "") ||
+        !gni_make_flat_program(g, &g->counted, "counted volume", "#define COUNTED\n"))
         return refuse(g, "the GL refuses the volume shaders: see the log");
-    g->near_matrix = g->gl.glGetUniformLocation(g->program, "u_near");
-    g->far_matrix = g->gl.glGetUniformLocation(g->program, "u_far");
-    g->color = g->gl.glGetUniformLocation(g->program, "u_color");
     g->gl.glGenBuffers(1, &g->quad);
     g->gl.glGenBuffers(1, &g->indices);
     g->gl.glBindBuffer(GL_ARRAY_BUFFER, g->quad);
@@ -95,9 +89,9 @@ void gn_gles_destroy(gn_gles *g)
             gni_delete_upload(g, &g->uploads[i]);
         g->gl.glDeleteBuffers(1, &g->quad);
         g->gl.glDeleteBuffers(1, &g->indices);
-        g->gl.glDeleteProgram(g->program);
-        if (g->sided)
-            g->gl.glDeleteProgram(g->sided);
+        g->gl.glDeleteProgram(g->colored.name); /* 0 is none */
+        g->gl.glDeleteProgram(g->counted.name);
+        g->gl.glDeleteProgram(g->sided.name);
     }
     if (g->uploads)
         g->port.resize(g->port.user, g->uploads, g->upload_capacity * sizeof *g->uploads, 0);

@@ -39,16 +39,22 @@ typedef struct gni_upload {
 /* First vertices in gn_gles.quad, six each: a quad over the target; its corners at w = 0; the upper two alone so. */
 enum { GNI_QUAD, GNI_FAR_QUAD = 6, GNI_WALL = 12 };
 
+/* volume.vert over a way of flat.frag. */
+typedef struct gni_program {
+    GLuint name;
+    GLint near_matrix, far_matrix;
+    GLint color, side; /* where that way has them */
+} gni_program;
+
 struct gn_gles {
     gn_context *context;
     gn_port port; /* the context's */
     gn_gl gl;
     int forgotten;
-    GLuint program, quad, indices;
-    GLint near_matrix, far_matrix, color;
-    GLuint sided; /* the program that discards one side of triangles; 0: not made yet */
-    GLint sided_near, sided_far, sided_side;
-    int is_sided; /* it is in use */
+    GLuint quad, indices;
+    gni_program colored, counted; /* in one colour, and in none */
+    gni_program sided;            /* discards one side of triangles, in no colour; its name is 0 until it is made */
+    const gni_program *in_use;    /* while volumes are drawn */
     GLuint attribute_arrays;
     gni_upload *uploads; /* sorted by address */
     uint32_t upload_count, upload_capacity;
@@ -76,14 +82,16 @@ void gni_leave_state(gn_gles *g); /* as in a new context */
  * lines for the fragment shader, "" mostly. */
 GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const char *vertex, const char *fragment);
 
+/* Of flat.frag's ways, by its defines. 0 on failure. */
+int gni_make_flat_program(gn_gles *g, gni_program *out, const char *name, const char *defines);
+
 /* buffers.c */
 const gni_upload *gni_find_upload(const gn_gles *g, const gn_mesh *mesh);
 void gni_delete_upload(gn_gles *g, const gni_upload *upload);
 
 /* volumes.c: draws records with the state as it is; `turned` draws the part of the caps that counts the other way
  * round. */
-void gni_begin_volumes(gn_gles *g, const float color[4]);
-void gni_begin_sided_volumes(gn_gles *g); /* without colour, by the program that discards */
+void gni_begin_volumes(gn_gles *g, const gni_program *program);
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *record, int turned);
 void gni_draw_surface(gn_gles *g, const gn_plan_object *object); /* the object itself, by the same program */
 void gni_end_volumes(gn_gles *g);

@@ -1,6 +1,9 @@
 /* program.c - compiles and links; what the driver says of a failure goes to the port's log with the shader's name. */
 #include "gni_gles.h"
 
+#include "shaders/flat.frag.h"
+#include "shaders/volume.vert.h"
+
 #include <stdio.h>
 
 static void complain(const gn_gles *g, const char *name, const char *log)
@@ -66,4 +69,18 @@ GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const
     if (f)
         gl->glDeleteShader(f);
     return program;
+}
+
+int gni_make_flat_program(gn_gles *g, gni_program *out, const char *name, const char *defines)
+{
+    const gn_gl *gl = &g->gl;
+
+    out->name = gni_make_program(g, name, defines, gni_shader_volume_vert, gni_shader_flat_frag);
+    if (!out->name)
+        return 0;
+    out->near_matrix = gl->glGetUniformLocation(out->name, "u_near");
+    out->far_matrix = gl->glGetUniformLocation(out->name, "u_far");
+    out->color = gl->glGetUniformLocation(out->name, "u_color");
+    out->side = gl->glGetUniformLocation(out->name, "u_side");
+    return 1;
 }

@@ -5,23 +5,12 @@
  * its drawn order of vertices, and the caller counts it the other way round (DESIGN.md, decision 4). */
 #include "gni_gles.h"
 
-void gni_begin_sided_volumes(gn_gles *g)
+void gni_begin_volumes(gn_gles *g, const gni_program *program)
 {
-    g->is_sided = 1;
-    g->gl.glUseProgram(g->sided);
+    g->in_use = program;
+    g->gl.glUseProgram(program->name);
     g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
     g->gl.glEnableVertexAttribArray(0);
-}
-
-void gni_begin_volumes(gn_gles *g, const float color[4])
-{
-    const gn_gl *gl = &g->gl;
-
-    g->is_sided = 0;
-    gl->glUseProgram(g->program);
-    gl->glUniform4fv(g->color, 1, color);
-    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
-    gl->glEnableVertexAttribArray(0);
 }
 
 /* Attribute 0 at a chunk; before each chunk stand the hubs of those before it. */
@@ -40,7 +29,7 @@ void gni_draw_surface(gn_gles *g, const gn_plan_object *object)
     const gn_mesh_info *info = gn_mesh_get_info(object->mesh);
 
     gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gni_find_upload(g, object->mesh)->surface);
-    gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, object->matrix);
+    gl->glUniformMatrix4fv(g->in_use->near_matrix, 1, GL_FALSE, object->matrix);
     for (uint32_t c = 0; c < info->chunk_count; c++) {
         point_at(g, object->mesh, c);
         gl->glDrawElements(GL_TRIANGLES, (GLsizei)(3 * info->chunks[c].triangle_count), GL_UNSIGNED_SHORT,
@@ -59,8 +48,8 @@ void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int tu
     if (count == 0)
         return;
     point_at(g, object->mesh, r->chunk);
-    gl->glUniformMatrix4fv(g->is_sided ? g->sided_near : g->near_matrix, 1, GL_FALSE, object->matrix);
-    gl->glUniformMatrix4fv(g->is_sided ? g->sided_far : g->far_matrix, 1, GL_FALSE, r->far_matrix);
+    gl->glUniformMatrix4fv(g->in_use->near_matrix, 1, GL_FALSE, object->matrix);
+    gl->glUniformMatrix4fv(g->in_use->far_matrix, 1, GL_FALSE, r->far_matrix);
     gl->glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_SHORT,
                        (const void *)((uintptr_t)first * sizeof(uint16_t)));
 }
@@ -78,7 +67,8 @@ void gni_end_volumes(gn_gles *g)
 void gn_gles_draw_volumes(gn_gles *g, const gn_plan *plan, uint32_t first_record, uint32_t record_count,
                           const float color[4])
 {
-    gni_begin_volumes(g, color);
+    gni_begin_volumes(g, &g->colored);
+    g->gl.glUniform4fv(g->colored.color, 1, color);
     for (uint32_t i = first_record; i < first_record + record_count && i < plan->record_count; i++) {
         const int clamped = plan->records[i].far_end == GN_FAR_CLAMPED;
         const uint32_t *at = plan->records[i].scissor;

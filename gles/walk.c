@@ -15,9 +15,6 @@
  * of the test scenes are wrong by either method on llvmpipe, with it none (make truth). */
 #include "gni_gles.h"
 
-#include "shaders/flat.frag.h"
-#include "shaders/volume.vert.h"
-
 static const gni_state ambient = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .depth_func = GL_LESS};
 static const gni_state light = {
     .color_write = GL_TRUE, .depth_func = GL_EQUAL, .blend_source = GL_ONE, .blend_destination = GL_ONE};
@@ -163,6 +160,11 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, h
         s.stencil_reference = name_of(layout, r->patch);
         s.stencil_mask = name_mask(layout);
     }
+    if (r->unpatched) {
+        s.stencil_func = GL_EQUAL;
+        s.stencil_reference = 0;
+        s.stencil_mask = name_mask(layout);
+    }
     if (h == BOTH) {
         s.front = backs_rise(r, turned) ? fall : rise;
         s.back = backs_rise(r, turned) ? rise : fall;
@@ -175,21 +177,6 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, h
     if (r->patch)
         s.bounds = NULL; /* of depths that are not tested */
     return s;
-}
-
-/* Once, when a plan first needs it. */
-static int make_sided(gn_gles *g)
-{
-    const gn_gl *gl = &g->gl;
-
-    g->sided =
-        gni_make_program(g, "one side of volumes", "#define SIDED\n", gni_shader_volume_vert, gni_shader_flat_frag);
-    if (!g->sided)
-        return 0;
-    g->sided_near = gl->glGetUniformLocation(g->sided, "u_near");
-    g->sided_far = gl->glGetUniformLocation(g->sided, "u_far");
-    g->sided_side = gl->glGetUniformLocation(g->sided, "u_side");
-    return 1;
 }
 
 gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
@@ -218,7 +205,7 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
             may_switch |= GNI_SWITCH_BOUNDS;
         discards |= l->stencil.discard;
     }
-    if (discards && !g->sided && !make_sided(g))
+    if (discards && !g->sided.name && !gni_make_flat_program(g, &g->sided, "one side of volumes", "#define COUNTED\n#define SIDED\n"))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses the shader that discards: see the log");
     g->plan = plan;
     g->may_switch = may_switch;
@@ -243,16 +230,16 @@ static void clear(gn_gles *g)
 /* A quad over the target, or the light's part of it. */
 static void draw_quad(gn_gles *g, const gn_step *step, gni_state state)
 {
-    static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, none[4] = {0, 0, 0, 0};
+    static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     const gn_gl *gl = &g->gl;
 
     bound(&state, g->plan, &g->plan->lights[step->light], g->plan->lights[step->light].scissor);
     state.bounds = NULL; /* what depth the pixels have does not matter */
     gni_set_state(g, &state);
-    gni_begin_volumes(g, none);
+    gni_begin_volumes(g, &g->counted);
     gl->glBindBuffer(GL_ARRAY_BUFFER, g->quad);
     gl->glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float), NULL);
-    gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, identity);
+    gl->glUniformMatrix4fv(g->counted.near_matrix, 1, GL_FALSE, identity);
     gl->glDrawArrays(GL_TRIANGLES, 0, 6);
     gni_end_volumes(g);
 }
@@ -260,10 +247,9 @@ static void draw_quad(gn_gles *g, const gn_step *step, gni_state state)
 /* Patches, once for all lights that use them. */
 static void mark_patches(gn_gles *g, const gn_step *step)
 {
-    static const float none[4] = {0, 0, 0, 0};
     const gn_plan *plan = g->plan;
 
-    gni_begin_volumes(g, none);
+    gni_begin_volumes(g, &g->counted);
     for (uint32_t i = 0; i < plan->object_count; i++)
         if (plan->objects[i].patch) {
             const gni_state state = mark(&plan->lights[step->light].stencil, plan->objects[i].patch);
@@ -286,7 +272,7 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, half h)
             state = counting(g->plan, r, turned, h);
             gni_set_state(g, &state);
             if (g->plan->lights[r->light].stencil.discard)
-                g->gl.glUniform1f(g->sided_side, shows_backs(r, turned, h) ? -1.0f : 1.0f);
+                g->gl.glUniform1f(g->sided.side, shows_backs(r, turned, h) ? -1.0f : 1.0f);
             gni_draw_record(g, g->plan, r, turned);
         }
 }
@@ -294,15 +280,11 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, half h)
 /* One-sided, a caster at a time: up first, so that counts which stop at the ends stray by one caster's layers only. */
 static void count_volumes(gn_gles *g, const gn_step *step)
 {
-    static const float none[4] = {0, 0, 0, 0};
     const gn_plan *plan = g->plan;
     const gn_stencil_layout *layout = &plan->lights[step->light].stencil;
     const uint32_t end = step->first_record + step->record_count;
 
-    if (layout->discard)
-        gni_begin_sided_volumes(g);
-    else
-        gni_begin_volumes(g, none);
+    gni_begin_volumes(g, layout->discard ? &g->sided : &g->counted);
     for (uint32_t i = step->first_record, next; i < end; i = next) {
         for (next = i + 1; next < end && plan->records[next].object == plan->records[i].object;)
             next++;

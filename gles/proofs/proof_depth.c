@@ -78,16 +78,16 @@ static void draw_infinity(gni_proofs *p)
     const gn_gl *gl = p->gl;
     const gn_gles *g = p->g;
 
-    gl->glUseProgram(g->program);
-    gl->glUniform4fv(g->color, 1, gni_red);
+    gl->glUseProgram(g->colored.name);
+    gl->glUniform4fv(g->colored.color, 1, gni_red);
     gl->glBindBuffer(GL_ARRAY_BUFFER, g->quad);
     gl->glEnableVertexAttribArray(0);
     for (int view = 0; view < 8; view++) {
         float near_matrix[16], far_matrix[16];
 
         tilt(near_matrix, far_matrix, view);
-        gl->glUniformMatrix4fv(g->near_matrix, 1, GL_FALSE, near_matrix);
-        gl->glUniformMatrix4fv(g->far_matrix, 1, GL_FALSE, far_matrix);
+        gl->glUniformMatrix4fv(g->colored.near_matrix, 1, GL_FALSE, near_matrix);
+        gl->glUniformMatrix4fv(g->colored.far_matrix, 1, GL_FALSE, far_matrix);
         gl->glVertexAttribPointer(
             0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float),
             (const void *)((view < 4 ? (size_t)GNI_FAR_QUAD : (size_t)GNI_WALL) * 4 * sizeof(float)));

@@ -54,11 +54,11 @@ GLint gni_uniform(const gni_proofs *p, const char *name)
 void gni_use_own_shader(gni_proofs *p)
 {
     p->gl->glUseProgram(0);
-    if (p->program != p->g->program)
+    if (p->program != p->g->colored.name)
         p->gl->glDeleteProgram(p->program);
-    p->program = p->g->program;
-    p->near_matrix = p->g->near_matrix;
-    p->color = p->g->color;
+    p->program = p->g->colored.name;
+    p->near_matrix = p->g->colored.near_matrix;
+    p->color = p->g->colored.color;
 }
 
 void gni_draw_rectangle(gni_proofs *p, int x, int y, int width, int height, float depth, int back, const float color[4])

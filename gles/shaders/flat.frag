@@ -1,8 +1,11 @@
 // flat.frag - one colour; while volumes are counted no colour is written.
 //
+// COUNTED no uniform: drivers keep a copy of all that a fragment shader reads for each draw between which it changes
 // SIDED   one side of triangles only: u_side 1 for fronts, -1 for backs. Read in main() alone: some drivers break
 //         gl_FrontFacing elsewhere
+#ifndef COUNTED
 uniform mediump vec4 u_color;
+#endif
 #ifdef SIDED
 uniform mediump float u_side;
 #endif
@@ -13,5 +16,9 @@ void main()
     if ((gl_FrontFacing ? 1.0 : -1.0) * u_side < 0.0)
         discard;
 #endif
+#ifdef COUNTED
+    gl_FragColor = vec4(0.0);
+#else
     gl_FragColor = u_color;
+#endif
 }

@@ -204,6 +204,7 @@ static int plan(host *h, int casting)
     h->scene.object_count = h->pile.object_count;
     h->scene.target = h->target;
     h->scene.method = GN_METHOD_STENCIL;
+    h->scene.without = getenv("WITHOUT") ? (unsigned)atoi(getenv("WITHOUT")) : 0;
     size = gn_plan_bound(&h->scene);
     if (size > h->size) {
         free(h->memory);
