@@ -61,6 +61,13 @@ static double lowest_of(const double normal[3], const gni_hull *box, const doubl
     return fmax(lowest, gni_dot(normal, ball) - ball[3]);
 }
 
+int gni_is_object_before(const gni_draft *d, uint32_t object, const double plane[4])
+{
+    const double lowest = lowest_of(plane, &d->boxes[object], d->balls[object]);
+
+    return lowest + plane[3] > GNI_MARGIN * (fabs(lowest) + fabs(plane[3]));
+}
+
 void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object)
 {
     const gni_hull *box = &d->boxes[object];
@@ -168,7 +175,8 @@ static void choose_end(gni_extent *e, const gni_draft *d, uint32_t object)
         length = length_to(normal, highest, lowest, ball, light);
         if (length < best) {
             best = length;
-            e->greatest_move = light[3] == 0.0 ? length : (of_light - lowest) / (of_light - highest);
+            e->moves[0] = light[3] == 0.0 ? (own - lowest) / (highest - lowest) * length : (of_light - lowest) / (of_light - own);
+            e->moves[1] = light[3] == 0.0 ? length : (of_light - lowest) / (of_light - highest);
             memcpy(e->end_plane, normal, 3 * sizeof *normal);
             e->end_plane[3] = -lowest;
         }
@@ -176,24 +184,27 @@ static void choose_end(gni_extent *e, const gni_draft *d, uint32_t object)
     e->is_ended = best < INFINITY;
 }
 
-/* The ball around the caster, moved as far as any of its vertices may be: the two have the volume between them. */
-static void find_ball_image(uint32_t out[4], const gni_extent *e, const gni_draft *d, uint32_t object)
+/* The image of the balls around a caster whose vertices are moved by `from` to `to`: they hold all that lies between.
+ * Returns 0 where the near plane may cut them. */
+static int find_moved_image(uint32_t out[4], const gni_draft *d, uint32_t object, double from, double to)
 {
     const double *light = d->bounds.light, *ball = d->balls[object], sun = sqrt(gni_dot(light, light));
-    double moved[4];
-    uint32_t of_end[4];
 
-    moved[3] = light[3] == 0.0 ? ball[3] : ball[3] * e->greatest_move;
-    for (int k = 0; k < 3; k++)
-        moved[k] = light[3] == 0.0 ? ball[k] - e->greatest_move * light[k] / sun
-                                   : light[k] + e->greatest_move * (ball[k] - light[k]);
-    if (-ball[2] - ball[3] < d->scene->camera.znear || -moved[2] - moved[3] < d->scene->camera.znear) {
-        memcpy(out, e->scissor, sizeof e->scissor);
-        return;
+    memset(out, 0, 4 * sizeof *out);
+    for (int i = 0; i < 2; i++) {
+        const double move = i ? to : from;
+        double moved[4];
+        uint32_t of_ball[4];
+
+        moved[3] = light[3] == 0.0 ? ball[3] : ball[3] * move;
+        for (int k = 0; k < 3; k++)
+            moved[k] = light[3] == 0.0 ? ball[k] - move * light[k] / sun : light[k] + move * (ball[k] - light[k]);
+        if (-moved[2] - moved[3] < d->scene->camera.znear)
+            return 0;
+        gni_find_ball_rectangle(of_ball, moved, &d->scene->camera, &d->scene->target);
+        gni_join_rectangles(out, of_ball);
     }
-    gni_find_ball_rectangle(out, ball, &d->scene->camera, &d->scene->target);
-    gni_find_ball_rectangle(of_end, moved, &d->scene->camera, &d->scene->target);
-    gni_join_rectangles(out, of_end);
+    return 1;
 }
 
 static double area_of(const uint32_t rectangle[4])
@@ -223,11 +234,20 @@ int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull 
     if (e->is_ended)
         ended_hull(volume, e, &d->boxes[object], d->bounds.light);
     gni_find_rectangle(e->image, volume, &d->scene->camera, &d->scene->target);
-    if (e->is_ended) {
-        find_ball_image(of_ball, e, d, object);
+    if (e->is_ended && find_moved_image(of_ball, d, object, d->bounds.light[3] == 0.0 ? 0.0 : 1.0, e->moves[1]))
         gni_meet_rectangles(e->image, of_ball);
-    }
     gni_choose_scissor(e->scissor, d, e->image, e->needed);
     gni_meet_rectangles(e->image, e->scissor);
+    memcpy(e->end_image, e->image, sizeof e->image);
+    if (e->is_ended && find_moved_image(of_ball, d, object, e->moves[0], e->moves[1]))
+        gni_meet_rectangles(e->end_image, of_ball);
+    if (e->is_ended) {
+        gni_hull end = *volume;
+
+        end.point_count -= 8;
+        memcpy(end.points, volume->points + 8, 8 * sizeof end.points[0]);
+        gni_find_rectangle(of_ball, &end, &d->scene->camera, &d->scene->target);
+        gni_meet_rectangles(e->end_image, of_ball);
+    }
     return e->image[2] > 0 && e->image[3] > 0;
 }

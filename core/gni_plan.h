@@ -147,17 +147,19 @@ typedef struct gni_extent {
     int is_ended;
     double end_plane[4]; /* view space, positive where the caster is */
     uint32_t scissor[4]; /* pixels where it must be counted, or more */
-    uint32_t image[4];   /* of them, those in which it may be seen */
+    uint32_t image[4], end_image[4]; /* of them, those in which it may be seen, and its end */
 
     /* while it is found */
     double normals[GNI_NORMALS][3], lowest[GNI_NORMALS]; /* of what is touched, along the normals */
     double deepest, greatest;                            /* view distance and coordinate of what is touched */
-    double greatest_move; /* of a vertex to the end: a factor of its distance from the light, or a distance */
+    double moves[2]; /* of vertices to the end, least and most: factors of their distance from the light, or distances */
     uint32_t touched, needed[4];                         /* how many, and the pixels of their images */
 } gni_extent;
 
 /* Of a caster. */
 void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object);
+/* Whether all of an object surely lies where the plane, of unit normal, is positive. */
+int gni_is_object_before(const gni_draft *d, uint32_t object, const double plane[4]);
 /* Its volume may shadow this object. */
 void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object);
 /* Chooses end and scissor. volume: on entry without end; becomes what is drawn. Returns 0 when nothing is seen of

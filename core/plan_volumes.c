@@ -19,12 +19,14 @@ static int is_end_crossed(const gni_draft *d, const gni_volume *v)
         return 0;
     if (d->region || !d->receivers_are_known)
         return 1;
-    gni_make_view(&view, &d->scene->camera, &d->scene->target, v->extent->image);
+    if (v->extent->end_image[2] == 0 || v->extent->end_image[3] == 0)
+        return 0;
+    gni_make_view(&view, &d->scene->camera, &d->scene->target, v->extent->end_image);
     if (!gni_is_before(&view.near_rectangle, v->end_plane))
         return 1;
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
-            !(v->unpatched && d->objects[i].patch) && gni_do_rectangles_meet(d->rectangles[i], v->extent->image) && !gni_is_before(&d->boxes[i], v->end_plane))
+            !(v->unpatched && d->objects[i].patch) && gni_do_rectangles_meet(d->rectangles[i], v->extent->end_image) && !gni_is_object_before(d, i, v->end_plane))
             return 1;
     return 0;
 }

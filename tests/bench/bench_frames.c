@@ -313,8 +313,9 @@ static int measure(host *h)
         ms[2][at] = now_ms() - start;
     }
     fragments = count_fragments(h);
-    for (uint32_t r = 0; r < h->plan->record_count; r++)
-        draws += 1 + (h->plan->records[r].turned_cap_count > 0);
+    for (uint32_t r = 0; r < h->plan->record_count; r++) {
+        { const gn_record *q=&h->plan->records[r]; if (getenv("DUMP")) printf("light %u object %u case %d sides %u dark %u light %u patch %u far %d unpatched %d scissor %u %u %u %u\n", q->light, q->object, q->mcguire_case, q->side_count/6, q->dark_cap_count/3, q->light_cap_count/3, q->patch, q->far_end, q->unpatched, q->scissor[0],q->scissor[1],q->scissor[2],q->scissor[3]); }
+        draws += 1u + (h->plan->records[r].turned_cap_count > 0); }
     for (int way = 0; way < WAYS; way++)
         qsort(ms[way], FRAMES, sizeof(double), by_value);
     qsort(planning, FRAMES, sizeof(double), by_value);
