@@ -41,6 +41,7 @@ struct gn_mesh {
     uint32_t *chunk_edges; /* [chunk_count + 1]: where a chunk's edges start */
     uint32_t largest;      /* the triangle of the largest area */
     double radius;         /* of a ball about the hub */
+    double longest_edge;
     gni_part *parts;
     uint32_t *part_triangles; /* sorted by part; degenerate triangles are in none */
     uint32_t part_triangle_count;
@@ -198,6 +199,8 @@ double gni_dot(const double a[3], const double b[3]);
 void gni_make_axes(double axes[3][3], const double axis[3]);
 /* The box around a mesh, in view space. */
 void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16]);
+/* The most that a matrix stretches a length, or a little more. */
+double gni_stretch(const double m[16]);
 /* Centre and radius of a ball around a mesh, whose box is given, in view space. */
 void gni_find_ball(double out[4], const gni_hull *box, const gn_mesh *mesh, const double model_view[16]);
 /* A box along view space's axes. */

@@ -198,6 +198,12 @@ typedef struct gni_volume {
     int unpatched;      /* as in gn_record */
 } gni_volume;
 
+/* slivers.c: the eye in the space of the object's mesh, and how near to it a triangle's plane must come to be drawn in a
+ * light cap by z-pass. 0 where all must be drawn. */
+int gni_find_slivers(const gni_draft *d, uint32_t object, double eye[4], double *limit);
+uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, const double eye[4], double limit,
+                         uint16_t *out);
+
 /* plan_volumes.c */
 /* Planes go the other way: a plane p of view space is p m in the space that m takes to view space. */
 void gni_plane_before(double out[4], const double plane[4], const double m[16]);

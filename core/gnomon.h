@@ -315,6 +315,7 @@ typedef struct gn_record {
     int fan;          /* the dark cap is a fan over the silhouette */
     uint32_t patch;   /* not 0: a projection onto this patch, its dark cap alone, counted where the patch is seen */
     int unpatched;    /* counted only where no patch is seen */
+    int slivers;      /* of the light cap only triangles that are seen nearly edge-on */
     int mcguire_case; /* 1: by z-pass; 2, 3: by z-fail; 0: on a patch */
     int mirrored;     /* the model matrix swaps front and back */
     gn_far far_end;

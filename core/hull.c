@@ -58,8 +58,8 @@ void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_vi
             out->edges[i][k] = out->points[1 << i][k] - out->points[0][k];
 }
 
-/* The most that a matrix stretches a length, or a little more: by the greatest row sum of its square (Gershgorin). */
-static double stretch_of(const double m[16])
+/* By the greatest row sum of its square (Gershgorin). */
+double gni_stretch(const double m[16])
 {
     double most = 0.0;
 
@@ -85,7 +85,7 @@ void gni_find_ball(double out[4], const gni_hull *box, const gn_mesh *mesh, cons
         square = fmax(square, (p[0] - out[0]) * (p[0] - out[0]) + (p[1] - out[1]) * (p[1] - out[1]) +
                                   (p[2] - out[2]) * (p[2] - out[2]));
     }
-    out[3] = fmin(sqrt(square), stretch_of(model_view) * mesh->radius);
+    out[3] = fmin(sqrt(square), gni_stretch(model_view) * mesh->radius);
 }
 
 void gni_hull_around(gni_hull *out, const double low[3], const double high[3])

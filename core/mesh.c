@@ -44,6 +44,20 @@ static void plane_of(const gn_mesh *mesh, uint32_t triangle, double plane[4])
     plane[3] = -(plane[0] * v[0][0] + plane[1] * v[0][1] + plane[2] * v[0][2]);
 }
 
+static void note_edges(gn_mesh *mesh, uint32_t triangle)
+{
+    const uint32_t *c = mesh->triangles + 3 * (size_t)triangle;
+
+    for (int k = 0; k < 3; k++) {
+        const float *a = mesh->positions + 3 * (size_t)c[k], *b = mesh->positions + 3 * (size_t)c[(k + 1) % 3];
+        const double x = (double)a[0] - (double)b[0], y = (double)a[1] - (double)b[1], z = (double)a[2] - (double)b[2];
+        const double square = x * x + y * y + z * z;
+
+        if (square > mesh->longest_edge * mesh->longest_edge)
+            mesh->longest_edge = sqrt(square);
+    }
+}
+
 static gn_result make_planes(gn_mesh *mesh)
 {
     const double *first = NULL;
@@ -59,6 +73,7 @@ static gn_result make_planes(gn_mesh *mesh)
         double *plane = mesh->planes + 4 * (size_t)t;
 
         plane_of(mesh, t, plane);
+        note_edges(mesh, t);
         if (plane[0] == 0.0 && plane[1] == 0.0 && plane[2] == 0.0)
             continue;
         if (!first)

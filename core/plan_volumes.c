@@ -149,6 +149,9 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *castin
     int mcguire_case;
     const unsigned parts = choose_parts(d, v, &mcguire_case);
     uint32_t silhouette = parts & GN_SIDES ? 0 : GNI_NONE;
+    double eye[4], limit = 0.0;
+    const int slivers = mcguire_case == 1 && parts & GN_LIGHT_CAP && d->lights[d->light].method == GN_METHOD_STENCIL &&
+                        gni_find_slivers(d, v->object, eye, &limit);
 
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         gn_record *r = &d->records[d->plan->record_count];
@@ -164,7 +167,10 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *castin
                                        : gni_put_dark_cap(mesh, c, casting, at);
             at += r->dark_cap_count;
         }
-        if (parts & GN_LIGHT_CAP) {
+        if (parts & GN_LIGHT_CAP && slivers) {
+            at += r->light_cap_count = gni_put_slivers(mesh, c, casting, eye, limit, at);
+            r->slivers = 1;
+        } else if (parts & GN_LIGHT_CAP) {
             at += r->light_cap_count = gni_put_light_cap(mesh, c, casting, 1, at);
             at += r->turned_cap_count = gni_put_light_cap(mesh, c, casting, -1, at);
         }

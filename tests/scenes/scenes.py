@@ -1,7 +1,7 @@
 """Writes the test scenes: python3 scenes.py FOLDER [NAME...]
 
 Every scene is a function of lights.py (where light, eye and casters are), meshes.py (what casts),
-bounds.py (what lights reach), nests.py (more layers than a stencil counts), extremes.py (the edge
+bounds.py (what lights reach), piles.py (what is measured), nests.py (more layers than a stencil counts), extremes.py (the edge
 of numbers) or courtyard.py (the picture); this file only runs them. It writes FOLDER/NAME.gltf and NAME.bin, the
 same bytes each time, and without names also FOLDER/scenes.txt, one line per scene:
 
@@ -12,12 +12,13 @@ See stage.scene() for what the words promise.
 import os
 import sys
 
-import bounds     # noqa: F401  (registers its scenes, as do the next five)
+import bounds     # noqa: F401  (registers its scenes, as do the next six)
 import courtyard  # noqa: F401
 import extremes   # noqa: F401
 import lights     # noqa: F401
 import meshes     # noqa: F401
 import nests      # noqa: F401
+import piles      # noqa: F401
 from stage import SCENES, Stage
 
 

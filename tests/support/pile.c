@@ -171,11 +171,11 @@ void pile_pose(pile *p, uint32_t frame, double aspect)
 
         turn(p->objects[i].model, i, 0.01 * frame + i, place);
         p->objects[i].mesh = p->meshes[0]->mesh;
-        p->objects[i].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN | GN_DRAWN_BACKS;
+        p->objects[i].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN;
     }
     gn_mat4_identity(p->objects[p->object_count - 1].model);
     p->objects[p->object_count - 1].mesh = p->meshes[1]->mesh;
-    p->objects[p->object_count - 1].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN | GN_DRAWN_BACKS;
+    p->objects[p->object_count - 1].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN;
     for (uint32_t i = 0; i < p->light_count; i++) {
         const double angle = 0.02 * frame + 2 * pi * i / p->light_count, radius = 0.8 * extent + 1.6;
 

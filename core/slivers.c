@@ -1,0 +1,64 @@
+/* slivers.c - which triangles of a light cap z-pass must draw when the host draws front faces only.
+ *
+ * z-pass needs no light cap where the caster is seen in its place. Of a closed caster seen from outside with all fronts
+ * drawn that would be everywhere, since a back lies behind some front; but a triangle that is nearly edge-on may turn
+ * over when a rasteriser rounds its vertices, be culled as a back, and leave a hole: there it counts, and so does each
+ * back that is seen through it. So only those are left out that are drawn for sure: fronts whose image is higher than
+ * rounding. Vertices are rounded to a sixteenth of a pixel at worst (OpenGL ES 2.0's least SUBPIXEL_BITS is 4): a
+ * height of an eighth is safe.
+ *
+ * Twice the area of a triangle's image at distance 1 is the product of its plane with the eye over the product of its
+ * vertices' distances; over its longest side that is its height. */
+#include "gni_plan.h"
+
+#include <math.h>
+
+#define HEIGHT 0.125 /* of a pixel */
+
+int gni_find_slivers(const gni_draft *d, uint32_t object_index, double eye[4], double *limit)
+{
+    const gn_camera *camera = &d->scene->camera;
+    const gn_object *object = &d->scene->objects[object_index];
+    const gn_mesh *mesh = object->mesh;
+    const gni_hull *box = &d->boxes[object_index];
+    const double pixels = fmin(d->whole[2] / (camera->right - camera->left), d->whole[3] / (camera->top - camera->bottom));
+    static const double origin[3] = {0, 0, 0};
+    double model_view[16], inverse[16], nearest = INFINITY, farthest = 0.0, longest = 0.0;
+
+    if (camera->orthographic || !(object->flags & GN_DRAWN) || mesh->info.outward_part_count != mesh->info.part_count)
+        return 0;
+    for (int i = 0; i < 8; i++) {
+        const double *p = box->points[i];
+
+        nearest = fmin(nearest, -p[2]);
+        farthest = fmax(farthest, -p[2]);
+        longest = fmax(longest, sqrt(gni_dot(p, p)) / -p[2]);
+    }
+    gni_model_view(model_view, camera, object->model, mesh->info.centre);
+    if (!(nearest > camera->znear * (1.0 + GNI_MARGIN)) || !gn_mat4_invert_affine(inverse, model_view))
+        return 0;
+    gn_mat4_transform(eye, inverse, origin, 1.0);
+    eye[3] = 1.0;
+    /* an edge's image is no longer than the edge over the least distance, seen under the widest angle */
+    *limit = HEIGHT / pixels * mesh->longest_edge * gni_stretch(model_view) * longest / nearest * farthest *
+             farthest * farthest / fabs(gn_mat4_determinant3(object->model));
+    return isfinite(*limit);
+}
+
+uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk_index, const int8_t *casting, const double eye[4], double limit,
+                         uint16_t *out)
+{
+    const gn_chunk *chunk = &mesh->chunks[chunk_index];
+    uint32_t count = 0;
+
+    for (uint32_t t = chunk->first_triangle; t < chunk->first_triangle + chunk->triangle_count; t++) {
+        const double *plane = mesh->planes + 4 * (size_t)t;
+        const uint16_t *c = mesh->corners + 3 * (size_t)t;
+
+        if (!casting[t] || gni_dot(plane, eye) + plane[3] > limit)
+            continue;
+        for (int k = 0; k < 3; k++)
+            out[count++] = (uint16_t)(2u * c[k]);
+    }
+    return count;
+}
