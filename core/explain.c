@@ -67,6 +67,8 @@ size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, si
     if (l->batches > 1)
         gni_put(&s, "; more layers than %d bits count: %lu batches of up to %lu layers, folded into a flag",
                 l->stencil.bits + 1, (unsigned long)l->batches, (unsigned long)l->layers);
+    if (l->stencil.patch_bits)
+        gni_put(&s, "; flat receivers on %lu planes take no volumes", (unsigned long)plan->patch_count);
     if (plan->blend_once)
         gni_put(&s, "; of coincident surfaces only the first is lit");
     return s.length;
@@ -89,7 +91,9 @@ size_t gn_plan_explain_caster(const gn_plan *plan, uint32_t light, uint32_t obje
         gni_put(&s, "left out: %s", skips[c->skip].of_object);
         return s.length;
     }
-    if (plan->lights[light].method == GN_METHOD_STENCIL)
+    if (c->mcguire_case == 0)
+        gni_put(&s, "no volume: only flat receivers are in its shadow");
+    else if (plan->lights[light].method == GN_METHOD_STENCIL)
         gni_put(&s, "%s", cases[c->mcguire_case - 1]);
     else
         gni_put(&s, "by %s, as all", c->mcguire_case == 1 ? "z-pass" : "z-fail");
@@ -100,6 +104,14 @@ size_t gn_plan_explain_caster(const gn_plan *plan, uint32_t light, uint32_t obje
         }
     if (c->fan)
         gni_put(&s, " as a fan");
+    if (c->is_ended)
+        gni_put(&s, ", ended behind the last thing that it may shadow");
+    separator = "; projected on patch ";
+    for (uint32_t p = 0; p < plan->patch_count; p++)
+        if (c->patches >> p & 1) {
+            gni_put(&s, "%s%lu", separator, (unsigned long)p + 1);
+            separator = ", ";
+        }
     return s.length;
 }
 

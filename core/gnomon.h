@@ -392,6 +392,7 @@ typedef struct gn_plan_caster {
     uint8_t parts;        /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: drawn */
     uint8_t fan;          /* its dark cap is a fan */
     uint8_t patches;      /* on which it is projected: bit p for patch p + 1 */
+    uint8_t is_ended;     /* its volume ends behind the last thing that it may shadow */
     uint8_t is_lit;       /* 0: out of view or of the light's bounds; the host need not draw it in the light's passes */
 } gn_plan_caster;
 

@@ -12,6 +12,21 @@ static void put_number(gni_text *w, double value) /* JSON has no infinity */
         gni_put(w, "null");
 }
 
+static void put_plane(gni_text *w, const double plane[4])
+{
+    for (int i = 0; i < 4; i++) {
+        gni_put(w, "%s", i ? ", " : "[");
+        put_number(w, plane[i]);
+    }
+    gni_put(w, "]");
+}
+
+static void put_rectangle(gni_text *w, const uint32_t at[4])
+{
+    gni_put(w, "[%lu, %lu, %lu, %lu]", (unsigned long)at[0], (unsigned long)at[1], (unsigned long)at[2],
+            (unsigned long)at[3]);
+}
+
 static void put_record(gni_text *w, const gn_record *r)
 {
     static const char *const names[] = {"sides", "light cap", "dark cap"};
@@ -31,20 +46,20 @@ static void put_record(gni_text *w, const gn_record *r)
         "%lu},",
         (unsigned long)r->first_index, (unsigned long)r->side_count, (unsigned long)r->dark_cap_count,
         (unsigned long)r->light_cap_count, (unsigned long)r->turned_cap_count);
-    gni_put(w, " \"fan\": %s, \"case\": %d, \"mirrored\": %s, \"far_end\": \"%s\", \"end_plane\": [",
+    gni_put(w, " \"fan\": %s, \"case\": %d, \"mirrored\": %s, \"far_end\": \"%s\", \"end_plane\": ",
             r->fan ? "true" : "false", r->mcguire_case, r->mirrored ? "true" : "false", far_ends[r->far_end]);
-    for (int i = 0; i < 4; i++) {
-        gni_put(w, "%s", i ? ", " : "");
-        put_number(w, r->end_plane[i]);
-    }
-    gni_put(w, "], \"end_reach\": ");
+    put_plane(w, r->end_plane);
+    gni_put(w, ", \"end_reach\": ");
     put_number(w, r->end_reach);
+    gni_put(w, ", \"slivers\": %s, \"patch\": %lu, \"unpatched\": %s, \"scissor\": ", r->slivers ? "true" : "false",
+            (unsigned long)r->patch, r->unpatched ? "true" : "false");
+    put_rectangle(w, r->scissor);
     gni_put(w, "}");
 }
 
 static void put_step(gni_text *w, const gn_step *s)
 {
-    static const char *const kinds[] = {"clear", "zero", "volumes", "draw", "fold"};
+    static const char *const kinds[] = {"clear", "zero", "volumes", "draw", "fold", "mark", "darken"};
     static const char *const draws[] = {"nothing", "ambient", "light", "final"};
 
     gni_put(w, "\n  {\"step\": \"%s\"", kinds[s->kind]);
@@ -57,6 +72,8 @@ static void put_step(gni_text *w, const gn_step *s)
     if (s->kind == GN_STEP_VOLUMES)
         gni_put(w, ", \"first_record\": %lu, \"records\": %lu", (unsigned long)s->first_record,
                 (unsigned long)s->record_count);
+    if (s->kind == GN_STEP_DARKEN)
+        gni_put(w, ", \"patch\": %lu", (unsigned long)s->patch);
     gni_put(w, "}");
 }
 
@@ -64,8 +81,8 @@ static void put_caster(gni_text *w, const gn_plan *plan, uint32_t light, uint32_
 {
     const gn_plan_caster *c = &plan->casters[(size_t)light * plan->object_count + object];
 
-    gni_put(w, "%s{\"skip\": \"%s\", \"case\": %d, \"lit\": %s}", object ? ", " : "", gni_skip_name((gn_skip)c->skip),
-            c->mcguire_case, c->is_lit ? "true" : "false");
+    gni_put(w, "%s{\"skip\": \"%s\", \"case\": %d, \"patches\": %d, \"lit\": %s}", object ? ", " : "",
+            gni_skip_name((gn_skip)c->skip), c->mcguire_case, c->patches, c->is_lit ? "true" : "false");
 }
 
 static void put_light(gni_text *w, const gn_plan *plan, uint32_t light)
@@ -76,8 +93,9 @@ static void put_light(gni_text *w, const gn_plan *plan, uint32_t light)
     gni_put(w, "%s\n  {\"method\": \"%s\", \"reason\": \"%s\", \"skip\": \"%s\", \"reach\": ", light ? "," : "",
             gn_plan_method_name(plan, light), l->reason, gni_skip_name(l->skip));
     put_number(w, l->reach);
-    gni_put(w, ", \"scissor\": [%lu, %lu, %lu, %lu], \"depth_bounds\": [", (unsigned long)l->scissor[0],
-            (unsigned long)l->scissor[1], (unsigned long)l->scissor[2], (unsigned long)l->scissor[3]);
+    gni_put(w, ", \"scissor\": ");
+    put_rectangle(w, l->scissor);
+    gni_put(w, ", \"depth_bounds\": [");
     put_number(w, l->depth_bounds[0]);
     gni_put(w, ", ");
     put_number(w, l->depth_bounds[1]);
@@ -86,9 +104,9 @@ static void put_light(gni_text *w, const gn_plan *plan, uint32_t light)
     gni_put(
         w,
         ",\n   \"stencil\": {\"two_sided\": %s, \"discard\": %s, \"wrap\": %s, \"reference\": %d, \"range\": [%d, %d], "
-        "\"bits\": %d, \"flag\": %d},",
+        "\"bits\": %d, \"flag\": %d, \"patch_bits\": %d},",
         s->two_sided ? "true" : "false", s->discard ? "true" : "false", s->wrap ? "true" : "false", s->reference,
-        s->low, s->high, s->bits, s->flag);
+        s->low, s->high, s->bits, s->flag, s->patch_bits);
     gni_put(w,
             " \"layers\": %lu, \"batches\": %lu,\n   \"casters\": %lu, \"skipped_casters\": %lu, \"case1\": %lu, "
             "\"case2\": %lu, \"case3\": %lu, \"objects\": [",
@@ -139,7 +157,12 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
     put_number(&w, plan->deepest_receiver);
     gni_put(&w, ", \"farthest_vertex\": ");
     put_number(&w, plan->farthest_vertex);
-    gni_put(&w, ", \"indices\": %lu, \"endless_casters\": %lu,\n \"lights\": [", (unsigned long)plan->index_count,
+    gni_put(&w, ", \"patches\": [");
+    for (uint32_t p = 0; p < plan->patch_count; p++) {
+        gni_put(&w, "%s", p ? ", " : "");
+        put_plane(&w, plan->patches[p]);
+    }
+    gni_put(&w, "], \"indices\": %lu, \"endless_casters\": %lu,\n \"lights\": [", (unsigned long)plan->index_count,
             (unsigned long)plan->endless_casters);
     for (uint32_t i = 0; i < plan->light_count; i++)
         put_light(&w, plan, i);

@@ -88,7 +88,7 @@ static gn_result add_casters(gni_draft *d)
         gni_case at_hand;
         gni_extent extent;
 
-        caster->mcguire_case = caster->parts = caster->fan = caster->patches = 0;
+        caster->mcguire_case = caster->parts = caster->fan = caster->is_ended = caster->patches = 0;
         caster->skip = (uint8_t)look_at(d, i, &at_hand, &extent);
         for (uint32_t p = 0; p < d->patch_count; p++)
             caster->patches |= (uint8_t)((extent.on[p] == GNI_FANS_PATCH) << p);

@@ -185,6 +185,7 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *castin
         caster->mcguire_case = (uint8_t)mcguire_case;
         caster->parts |= (uint8_t)r->parts;
         caster->fan |= (uint8_t)r->fan;
+        caster->is_ended |= r->far_end == GN_FAR_ENDED && !d->region;
     }
     return silhouette;
 }

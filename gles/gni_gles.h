@@ -55,6 +55,8 @@ struct gn_gles {
     gni_program colored, counted; /* in one colour, and in none */
     gni_program sided;            /* discards one side of triangles, in no colour; its name is 0 until it is made */
     const gni_program *in_use;    /* while volumes are drawn */
+    const gn_mesh *pointed;       /* attribute 0 is at this one's chunk; NULL: elsewhere */
+    uint32_t pointed_chunk;
     GLuint attribute_arrays;
     gni_upload *uploads; /* sorted by address */
     uint32_t upload_count, upload_capacity;

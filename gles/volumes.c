@@ -8,16 +8,21 @@
 void gni_begin_volumes(gn_gles *g, const gni_program *program)
 {
     g->in_use = program;
+    g->pointed = NULL;
     g->gl.glUseProgram(program->name);
     g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
     g->gl.glEnableVertexAttribArray(0);
 }
 
-/* Attribute 0 at a chunk; before each chunk stand the hubs of those before it. */
+/* Attribute 0 at a chunk, where it is not there already; before each chunk stand the hubs of those before it. */
 static void point_at(gn_gles *g, const gn_mesh *mesh, uint32_t chunk)
 {
     const uint32_t vertex = gn_mesh_get_info(mesh)->chunks[chunk].first_vertex + chunk;
 
+    if (g->pointed == mesh && g->pointed_chunk == chunk)
+        return;
+    g->pointed = mesh;
+    g->pointed_chunk = chunk;
     g->gl.glBindBuffer(GL_ARRAY_BUFFER, gni_find_upload(g, mesh)->buffer);
     g->gl.glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, 4 * sizeof(float),
                                 (const void *)((uintptr_t)vertex * 8 * sizeof(float)));

@@ -296,6 +296,7 @@ static void floors_cast_where_they_may(void **state)
     desc = test_desc(&m);
     assert_int_equal(gn_mesh_create(test_context, &desc, &quad), GN_OK);
     assert_int_equal(gn_mesh_get_info(quad)->planar, 2);
+    f.scene.without = ~0u;
     f.objects[1].mesh = quad;
     f.objects[1].flags = GN_CASTS | GN_RECEIVES | GN_DRAWN;
     f.scene.light_count = 1;
@@ -318,6 +319,7 @@ static void floors_cast_where_they_may(void **state)
     caster_says(1, "case 1, by z-pass");
     f.objects[0].model[13] = 0;
     f.scene.camera.world[13] = -3; /* the eye below */
+    f.scene.camera.top = 0.6;
     plan();
     assert_int_equal(f.plan->casters[1].skip, GN_SKIP_NOT);
     f.objects[1].mesh = f.meshes[1];

@@ -30,7 +30,11 @@ typedef struct cost {
 
 static void draw(stage *s, gn_method method, double least, uint8_t *rgba, cost *c)
 {
-    const stage_wish wish = {.method = method, .casting = 1, .light_count = s->light_count, .least_light = least};
+    const stage_wish wish = {.method = method,
+                             .casting = 1,
+                             .light_count = s->light_count,
+                             .least_light = least,
+                             .without = ~0u}; /* z-fail's bits */
     char message[SCENE_MESSAGE] = "";
     const gl_counts before = counted_gl_read();
 

@@ -10,6 +10,7 @@
 static uint32_t used; /* set of gn_capability */
 static GLenum texture_type;
 static int clamps;       /* depth clamp is enabled */
+static int is_scissored; /* so is the scissor test */
 static uint32_t offered; /* by the driver */
 
 static void use(gn_capability c)
@@ -51,8 +52,7 @@ static void GL_APIENTRY enable(GLenum name)
         use(GN_CAN_DEPTH_CLAMP);
         clamps = 1;
     }
-    if (name == GL_SCISSOR_TEST)
-        use(GN_CAN_PARTIAL_CLEAR);
+    is_scissored |= name == GL_SCISSOR_TEST;
     between_real.glEnable(name);
 }
 
@@ -62,6 +62,7 @@ static void GL_APIENTRY disable(GLenum name)
         use(GN_CAN_DEPTH_CLAMP);
         clamps = 0;
     }
+    is_scissored &= name != GL_SCISSOR_TEST;
     between_real.glDisable(name);
 }
 
@@ -71,6 +72,8 @@ static void GL_APIENTRY clear(GLbitfield buffers)
         use(GN_CAN_STENCIL);
     if (buffers & GL_DEPTH_BUFFER_BIT)
         use(GN_CAN_DEPTH);
+    if (is_scissored)
+        use(GN_CAN_PARTIAL_CLEAR);
     between_real.glClear(buffers);
 }
 

@@ -123,6 +123,7 @@ static void bounds_cost_what_they_must(void **state)
     (void)state;
     assert_int_equal(test_frame_make(&f, context, gl, target), GN_OK);
     f.scene.light_count = 1;
+    f.scene.without = GN_MEASURE_SCISSORS;
     assert_int_equal(gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan), GN_OK);
     without = walk_and_count(f.plan);
     assert_int_equal(fake_gl_calls("glDepthBoundsEXT"), 0);

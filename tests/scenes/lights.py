@@ -217,14 +217,15 @@ def two_lamps_nested(s):
 def flat_light(s):
     """Lights exactly in the planes of a cube's faces, all on whole numbers: the first in the plane
     of the top, the second on the line of an edge, in two planes at once. The facing of such a
-    triangle may be decided either way, but once."""
+    triangle may be decided either way, but once. The eye is in no plane of a side: what depth a
+    side has that is seen exactly edge-on is a matter of rounding, by any method."""
     s.ground(7.0)
     s.thing(block((-1.0, 0.0, -1.0), (1.0, 2.0, 1.0)), s.material(RED))
     s.thing(block((-3.0, 0.0, 2.0), (-2.0, 1.0, 3.0)), s.material(BLUE))
     s.lamp((4.0, 2.0, 0.0), 24.0, (1.0, 0.85, 0.6))
     s.lamp((1.0, 2.0, 5.0), 16.0, (0.6, 0.8, 1.0))
     s.lamp((1.0, 6.0, 3.0), 20.0)
-    s.eye((6.0, 4.0, 9.0), (-0.5, 0.8, 0.5), 40.0)
+    s.eye((6.0, 4.1, 9.0), (-0.5, 0.8, 0.5), 40.0)
 
 
 @scene("zpass", "small", "the lights are behind the eye, and nothing is between them and it")
