@@ -57,13 +57,13 @@ typedef struct cutter {
 static void mark(const cutter *c, const uint32_t *list, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
-        c->d->piece[list[i]] = c->casting[list[i]];
+        c->d->piece.of[list[i]] = c->casting[list[i]];
 }
 
 static void unmark(const cutter *c, const uint32_t *list, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
-        c->d->piece[list[i]] = 0;
+        c->d->piece.of[list[i]] = 0;
 }
 
 /* Layers of the marked triangles of list[count], into the grid of the piece at hand. */
@@ -71,7 +71,7 @@ static uint32_t measure(const cutter *c, const uint32_t *list, uint32_t count)
 {
     gni_layers *l = c->d->layers;
 
-    return gni_measure_triangles(&l->cells, &l->piece, &l->scratch, c->mesh, c->model_view, c->d->piece, list, count);
+    return gni_measure_triangles(&l->cells, &l->piece, &l->scratch, c->mesh, c->model_view, c->d->piece.of, list, count);
 }
 
 /* The marked piece, which was measured last, into this batch or the next. */
@@ -80,7 +80,6 @@ static void emit(const cutter *c)
     gni_draft *d = c->d;
     gni_layers *l = d->layers;
     gn_plan_light *about = &d->lights[d->light];
-    gni_volume piece = *c->volume;
     uint32_t most;
 
     if (gni_most_layers(&l->cells, &l->batch, &l->piece) > c->limit) {
@@ -90,8 +89,8 @@ static void emit(const cutter *c)
     gni_add_grid(&l->cells, &l->batch, &l->piece);
     most = gni_most_layers(&l->cells, &l->batch, NULL);
     about->layers = about->layers > most ? about->layers : most;
-    piece.triangles = gni_count_casting(c->mesh, d->piece);
-    gni_add_records(d, &piece, d->piece);
+    gni_find_bits(c->mesh, &d->piece);
+    gni_add_records(d, c->volume, &d->piece);
 }
 
 /* Copies list[count] to ring[] and adds, marked, the neighbours beyond edges where two triangles cancel; of the same
@@ -111,9 +110,9 @@ static uint32_t add_ring(const cutter *c, const uint32_t *list, uint32_t count, 
             for (uint32_t u = first; u < first + 2; u++) {
                 const uint32_t t = (mesh->uses[u] & GNI_USE_CORNER) / 3;
 
-                if (c->d->piece[t] || !c->casting[t] || gni_chunk_of(mesh, t) != gni_chunk_of(mesh, list[i]))
+                if (c->d->piece.of[t] || !c->casting[t] || gni_chunk_of(mesh, t) != gni_chunk_of(mesh, list[i]))
                     continue;
-                c->d->piece[t] = c->casting[t];
+                c->d->piece.of[t] = c->casting[t];
                 ring[total++] = t;
             }
         }
@@ -272,13 +271,13 @@ static void add_chains(cutter *c, uint32_t count)
     }
 }
 
-void gni_add_batched(gni_draft *d, const gni_volume *volume, const int8_t *casting)
+void gni_add_batched(gni_draft *d, const gni_volume *volume, const gni_casting *casting)
 {
     const gn_object *object = &d->scene->objects[volume->object];
-    cutter c = {d, volume, object->mesh, casting, {0}, (uint32_t)d->lights[d->light].stencil.high, 0, 0};
+    cutter c = {d, volume, object->mesh, casting->of, {0}, (uint32_t)d->lights[d->light].stencil.high, 0, 0};
 
     gni_model_view(c.model_view, &d->scene->camera, object->model, object->mesh->info.centre);
-    memset(d->piece, 0, object->mesh->info.triangle_count);
+    memset(d->piece.of, 0, object->mesh->info.triangle_count);
     c.to_do = sort_chains(&c);
     c.indices_end = d->plan->index_count + GNI_MOST_INDICES * c.to_do;
     mark(&c, d->order, c.to_do);
@@ -301,12 +300,12 @@ static uint32_t measure_all(gni_draft *d, const gni_cells *cells, gni_grid *grid
 
         if (!(d->is_in[i] & GNI_IN_CAST))
             continue;
-        gn_object_casting(object, &d->scene->lights[d->light], d->casting);
+        gni_find_object_casting(object, &d->scene->lights[d->light], &d->casting);
         for (uint32_t t = 0; t < object->mesh->info.triangle_count; t++)
-            if (d->casting[t])
+            if (d->casting.of[t])
                 d->order[count++] = t;
         gni_model_view(model_view, &d->scene->camera, object->model, object->mesh->info.centre);
-        gni_measure_triangles(cells, &d->layers->piece, &d->layers->scratch, object->mesh, model_view, d->casting,
+        gni_measure_triangles(cells, &d->layers->piece, &d->layers->scratch, object->mesh, model_view, d->casting.of,
                               d->order, count);
         gni_add_grid(cells, grid, &d->layers->piece);
     }

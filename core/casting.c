@@ -1,7 +1,7 @@
-/* casting.c - which triangles look at the light, and which of them cast.
+/* casting.c - which triangles cast.
  *
- * Facing is decided once per triangle by the sign of one expression in double, and every part of a volume follows that
- * one bit: whatever rounding does to the bit, the volume stays a closed chain (DESIGN.md, decision 1).
+ * Facing is decided once per triangle (facing.c), and every part of a volume follows that one bit: whatever rounding does
+ * to the bit, the volume stays a closed chain (DESIGN.md, decision 1).
  *
  * Casting follows DESIGN.md, decision 2. Whether a light is inside a solid part is asked only when it is within the
  * part's box, by the solid angle that the part fills as the light sees it; in doubt (the light on the surface) every
@@ -13,19 +13,6 @@
 
 #include <math.h>
 #include <string.h>
-
-static int8_t facing_of(const double plane[4], const double light[4])
-{
-    const double side = plane[0] * light[0] + plane[1] * light[1] + plane[2] * light[2] + plane[3] * light[3];
-
-    return (int8_t)((side > 0.0) - (side < 0.0));
-}
-
-void gn_facing(const gn_mesh *mesh, const double light[4], int8_t *facing)
-{
-    for (uint32_t t = 0; t < mesh->info.triangle_count; t++)
-        facing[t] = facing_of(mesh->planes + 4 * (size_t)t, light);
-}
 
 /* The winding number of a closed part about a point; a half where the point lies on a triangle, or as good as on it. */
 static double winding(const gn_mesh *mesh, const gni_part *part, const double point[4])
@@ -66,20 +53,97 @@ static int only_lit_cast(const gn_mesh *mesh, const gni_part *part, const double
     return fabs(winding(mesh, part, light)) < 1e-9; /* far from all whole numbers but 0 */
 }
 
-void gn_casting(const gn_mesh *mesh, const double light[4], int8_t *casting)
+/* 0 or 1 in each of eight bytes: the bits of a byte. */
+static uint64_t spread_bits(uint64_t byte)
+{
+    const uint64_t picked = (byte * 0x0101010101010101u) & 0x8040201008040201u;
+
+    return ((picked + 0x7f7f7f7f7f7f7f7fu) >> 7) & 0x0101010101010101u;
+}
+
+/* Bytes of a whole cluster: `one` where the bit is set. */
+static void put_bytes(int8_t *out, uint64_t bits, uint32_t count, int8_t one)
+{
+    int8_t bytes[GNI_CLUSTER];
+
+    for (int i = 0; i < 8; i++) {
+        const uint64_t eight = spread_bits(bits >> (8 * i) & 0xff) * (uint8_t)one;
+
+        for (int k = 0; k < 8; k++) /* compilers store all at once where bytes lie so */
+            bytes[8 * i + k] = (int8_t)(uint8_t)(eight >> (8 * k));
+    }
+    memcpy(out, bytes, count);
+}
+
+static uint32_t size_of(const gn_mesh *mesh, uint32_t cluster)
+{
+    const uint32_t rest = mesh->info.triangle_count - cluster * GNI_CLUSTER;
+
+    return rest < GNI_CLUSTER ? rest : GNI_CLUSTER;
+}
+
+/* 1: all triangles of solid parts whose `outward` is the same, and the light is outside all. */
+static int is_plain(const gn_mesh *mesh, const double light[4])
+{
+    if (mesh->info.solid_part_count < mesh->info.part_count || mesh->info.part_count == 0)
+        return 0;
+    if (mesh->info.outward_part_count != 0 && mesh->info.outward_part_count != mesh->info.part_count)
+        return 0;
+    for (uint32_t p = 0; p < mesh->info.part_count; p++)
+        if (!only_lit_cast(mesh, &mesh->parts[p], light))
+            return 0;
+    return 1;
+}
+
+/* Triangle by triangle, by the rule of each one's part. c->front and c->back are known. */
+static void cast_by_part(const gn_mesh *mesh, const double light[4], gni_casting *c)
 {
     if (mesh->part_triangle_count < mesh->info.triangle_count)
-        memset(casting, 0, mesh->info.triangle_count); /* degenerate triangles are in no part */
+        memset(c->of, 0, mesh->info.triangle_count); /* degenerate triangles are in no part */
     for (uint32_t p = 0; p < mesh->info.part_count; p++) {
         const gni_part *part = &mesh->parts[p];
         const uint32_t *triangle = mesh->part_triangles + part->first_triangle;
         const int8_t unlit = only_lit_cast(mesh, part, light) ? (int8_t)-part->outward : 0;
 
         for (uint32_t i = 0; i < part->triangle_count; i++) {
-            const int8_t facing = facing_of(mesh->planes + 4 * (size_t)triangle[i], light);
+            const uint32_t t = triangle[i], word = t / GNI_CLUSTER, bit = t % GNI_CLUSTER;
+            const int8_t facing = (int8_t)((int)(c->bits[word] >> bit & 1) - (int)(c->spare[word] >> bit & 1));
 
-            casting[triangle[i]] = facing == unlit ? 0 : facing;
+            c->of[t] = facing == unlit ? 0 : facing;
         }
+    }
+}
+
+void gni_find_bits(const gn_mesh *mesh, gni_casting *c)
+{
+    c->is_plain = 0;
+    c->count = 0;
+    for (uint32_t cluster = 0; cluster < mesh->cluster_count; cluster++) {
+        const int8_t *of = c->of + (size_t)cluster * GNI_CLUSTER;
+        uint64_t bits = 0;
+
+        for (uint32_t i = 0; i < size_of(mesh, cluster); i++)
+            bits |= (uint64_t)(of[i] != 0) << i;
+        c->bits[cluster] = bits;
+        c->count += gni_count_bits(bits);
+    }
+}
+
+void gni_find_casting(const gn_mesh *mesh, const double light[4], gni_casting *c)
+{
+    const int plain = is_plain(mesh, light), inward = plain && mesh->info.outward_part_count == 0;
+
+    c->looked_at = gni_find_facing(mesh, light, inward ? c->spare : c->bits, inward ? c->bits : c->spare);
+    if (!plain) {
+        cast_by_part(mesh, light, c);
+        gni_find_bits(mesh, c);
+        return;
+    }
+    c->is_plain = 1;
+    c->count = 0;
+    for (uint32_t cluster = 0; cluster < mesh->cluster_count; cluster++) {
+        put_bytes(c->of + (size_t)cluster * GNI_CLUSTER, c->bits[cluster], size_of(mesh, cluster), inward ? -1 : 1);
+        c->count += gni_count_bits(c->bits[cluster]);
     }
 }
 
@@ -113,6 +177,11 @@ static int light_in_object(const gn_light *light, const gn_object *object, doubl
     return 1;
 }
 
+static int8_t sign_of(double x)
+{
+    return (int8_t)((x > 0.0) - (x < 0.0));
+}
+
 /* Facing of triangles as they lie flattened in the world. */
 static void facing_flattened(const gn_object *object, const gn_light *light, int8_t *facing)
 {
@@ -122,7 +191,7 @@ static void facing_flattened(const gn_object *object, const gn_light *light, int
 
     gni_towards(towards, light);
     for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
-        double v[3][3], plane[4], at[4] = {0, 0, 0, is_sun ? 0.0 : 1.0};
+        double v[3][3], normal[3], at[3];
 
         for (int k = 0; k < 3; k++) {
             const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
@@ -135,42 +204,86 @@ static void facing_flattened(const gn_object *object, const gn_light *light, int
         for (int axis = 0; axis < 3; axis++) {
             const int y = (axis + 1) % 3, z = (axis + 2) % 3;
 
-            plane[axis] = (v[1][y] - v[0][y]) * (v[2][z] - v[0][z]) - (v[1][z] - v[0][z]) * (v[2][y] - v[0][y]);
+            normal[axis] = (v[1][y] - v[0][y]) * (v[2][z] - v[0][z]) - (v[1][z] - v[0][z]) * (v[2][y] - v[0][y]);
             at[axis] = is_sun ? towards[axis] : light->position[axis] - v[0][axis];
         }
-        plane[3] = 0.0;
-        facing[t] = facing_of(plane, at);
+        facing[t] = sign_of(gni_dot(normal, at));
     }
 }
 
-void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *facing)
+void gni_find_object_casting(const gn_object *object, const gn_light *light, gni_casting *c)
 {
-    double at[4];
-
-    if (light_in_object(light, object, at))
-        gn_facing(object->mesh, at, facing);
-    else
-        facing_flattened(object, light, facing);
-}
-
-void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *casting)
-{
+    const gn_mesh *mesh = object->mesh;
     double at[4];
 
     if (light_in_object(light, object, at)) {
-        gn_casting(object->mesh, at, casting);
+        gni_find_casting(mesh, at, c);
         return;
     }
-    facing_flattened(object, light, casting);
-    for (uint32_t p = 0; p < object->mesh->info.part_count; p++) {
-        const gni_part *part = &object->mesh->parts[p];
+    facing_flattened(object, light, c->of);
+    for (uint32_t p = 0; p < mesh->info.part_count; p++) {
+        const gni_part *part = &mesh->parts[p];
 
         /* a flattened solid has two sheets in one place: the lit one is enough, and it is the one that is seen as
          * lit */
         for (uint32_t i = 0; part->outward && i < part->triangle_count; i++) {
-            int8_t *c = &casting[object->mesh->part_triangles[part->first_triangle + i]];
+            int8_t *o = &c->of[mesh->part_triangles[part->first_triangle + i]];
 
-            *c = *c == part->outward ? *c : 0;
+            *o = *o == part->outward ? *o : 0;
         }
     }
+    gni_find_bits(mesh, c);
+}
+
+/* What the public functions give is in the order of the description. They are not called every frame. */
+static void in_given_order(const gn_mesh *mesh, const gni_casting *c, int8_t *out)
+{
+    for (uint32_t t = 0; t < mesh->info.triangle_count; t++)
+        out[mesh->order[t]] = c->of[t];
+}
+
+static void facing_to_bytes(const gn_mesh *mesh, gni_casting *c)
+{
+    for (uint32_t t = 0; t < mesh->info.triangle_count; t++)
+        c->of[t] = (int8_t)((int)(c->bits[t / GNI_CLUSTER] >> t % GNI_CLUSTER & 1) -
+                            (int)(c->spare[t / GNI_CLUSTER] >> t % GNI_CLUSTER & 1));
+}
+
+void gn_facing(const gn_mesh *mesh, const double light[4], int8_t *facing)
+{
+    gni_casting c = mesh->scratch;
+
+    gni_find_facing(mesh, light, c.bits, c.spare);
+    facing_to_bytes(mesh, &c);
+    in_given_order(mesh, &c, facing);
+}
+
+void gn_casting(const gn_mesh *mesh, const double light[4], int8_t *casting)
+{
+    gni_casting c = mesh->scratch;
+
+    gni_find_casting(mesh, light, &c);
+    in_given_order(mesh, &c, casting);
+}
+
+void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *facing)
+{
+    const gn_mesh *mesh = object->mesh;
+    gni_casting c = mesh->scratch;
+    double at[4];
+
+    if (light_in_object(light, object, at)) {
+        gn_facing(mesh, at, facing);
+        return;
+    }
+    facing_flattened(object, light, c.of);
+    in_given_order(mesh, &c, facing);
+}
+
+void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *casting)
+{
+    gni_casting c = object->mesh->scratch;
+
+    gni_find_object_casting(object, light, &c);
+    in_given_order(object->mesh, &c, casting);
 }

@@ -1,46 +1,68 @@
 /* chunks.c - cuts a mesh so that 16-bit indices reach all of it.
  *
- * Triangles are taken in order until the next one would bring a chunk past GN_CHUNK_VERTICES distinct vertices. A
- * vertex that several chunks need is in each of them, and an edge belongs to the chunk of its first use, which has
- * both its vertices: so every index of a volume's chunk is local, and the chunks together draw the same triangles as
- * one would. */
+ * Clusters are taken in order until the next one would bring a chunk past GN_CHUNK_VERTICES distinct vertices. A vertex
+ * that several chunks need is in each of them; a side is drawn by the chunk of a triangle that has its edge, and so has
+ * both its vertices: every index of a volume's chunk is local, and the chunks together draw the same triangles as one
+ * would. */
 #include "gni.h"
 
 #include <string.h>
 
-/* How many chunk vertices there are in all; with out != NULL writes everything. stamp, local: [vertex_count]. */
-static void cut(gn_mesh *mesh, uint32_t *stamp, uint32_t *local, gn_chunk *chunks, uint32_t *chunk_count,
-                uint32_t *vertices, uint32_t *vertex_count)
+/* While chunks are cut. */
+typedef struct cutter {
+    gn_mesh *mesh;
+    uint32_t *chunk_of, *cluster_of; /* [vertex_count] the last chunk that has it; the last cluster that asked for it */
+    uint32_t *local;                 /* [vertex_count] its number there */
+} cutter;
+
+/* Vertices of the cluster from `first` to `end` that the chunk has not yet. */
+static uint32_t count_fresh(const cutter *c, uint32_t chunk, uint32_t first, uint32_t end)
 {
-    uint32_t chunk = 0, first = 0, total = 0;
+    uint32_t fresh = 0;
+
+    for (uint32_t i = 3 * first; i < 3 * end; i++) {
+        const uint32_t v = c->mesh->triangles[i];
+
+        if (c->chunk_of[v] != chunk && c->cluster_of[v] != first) {
+            c->cluster_of[v] = first;
+            fresh++;
+        }
+    }
+    return fresh;
+}
+
+/* How many chunks and chunk vertices there are in all; with chunks != NULL writes everything. */
+static void cut(const cutter *c, gn_chunk *chunks, uint32_t *chunk_count, uint32_t *vertices, uint32_t *vertex_count)
+{
+    gn_mesh *mesh = c->mesh;
+    uint32_t chunk = 0, total = 0;
     gn_chunk now = {0, 0, 0, 0};
 
-    memset(stamp, 0xff, mesh->info.vertex_count * sizeof *stamp);
-    for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
-        const uint32_t *c = mesh->triangles + 3 * (size_t)t;
-        uint32_t fresh = 0;
+    memset(c->chunk_of, 0xff, mesh->info.vertex_count * sizeof *c->chunk_of);
+    memset(c->cluster_of, 0xff, mesh->info.vertex_count * sizeof *c->cluster_of);
+    for (uint32_t first = 0; first < mesh->info.triangle_count; first += GNI_CLUSTER) {
+        const uint32_t rest = mesh->info.triangle_count - first, end = first + (rest < GNI_CLUSTER ? rest : GNI_CLUSTER);
 
-        for (int k = 0; k < 3; k++)
-            fresh += stamp[c[k]] != chunk;
-        if (now.vertex_count + fresh > GN_CHUNK_VERTICES) {
+        if (now.vertex_count + count_fresh(c, chunk, first, end) > GN_CHUNK_VERTICES) {
             if (chunks)
                 chunks[chunk] = now;
             chunk++;
-            first += now.triangle_count;
             now = (gn_chunk){total, 0, first, 0};
         }
-        for (int k = 0; k < 3; k++) {
-            if (stamp[c[k]] != chunk) {
-                stamp[c[k]] = chunk;
-                local[c[k]] = now.vertex_count++;
+        for (uint32_t i = 3 * first; i < 3 * end; i++) {
+            const uint32_t v = mesh->triangles[i];
+
+            if (c->chunk_of[v] != chunk) {
+                c->chunk_of[v] = chunk;
+                c->local[v] = now.vertex_count++;
                 if (vertices)
-                    vertices[total] = c[k];
+                    vertices[total] = v;
                 total++;
             }
             if (vertices)
-                mesh->corners[3 * (size_t)t + (size_t)k] = (uint16_t)local[c[k]];
+                mesh->corners[i] = (uint16_t)(2 * c->local[v]);
         }
-        now.triangle_count++;
+        now.triangle_count += end - first;
     }
     if (chunks)
         chunks[chunk] = now;
@@ -63,83 +85,29 @@ uint32_t gni_chunk_of(const gn_mesh *mesh, uint32_t triangle)
     return low;
 }
 
-/* Edges in order of their chunks, each with its uses: a counting sort. */
-static gn_result sort_edges(gn_mesh *mesh)
-{
-    gn_context *context = mesh->context;
-    const uint32_t edges = mesh->info.edge_count, chunks = mesh->info.chunk_count;
-    uint32_t *edge_uses = gni_alloc(context, (size_t)edges + 1, sizeof *edge_uses);
-    uint32_t *uses = gni_alloc(context, mesh->edge_uses[edges], sizeof *uses);
-    uint32_t *use_at = gni_alloc(context, (size_t)chunks + 1, sizeof *use_at);
-    uint32_t *edge_at = mesh->chunk_edges;
-
-    if (!edge_uses || !uses || !use_at) {
-        gni_free(context, edge_uses);
-        gni_free(context, uses);
-        gni_free(context, use_at);
-        return GN_E_MEMORY;
-    }
-    memset(edge_at, 0, ((size_t)chunks + 1) * sizeof *edge_at);
-    memset(use_at, 0, ((size_t)chunks + 1) * sizeof *use_at);
-    for (uint32_t e = 0; e < edges; e++) {
-        const uint32_t c = gni_chunk_of(mesh, (mesh->uses[mesh->edge_uses[e]] & GNI_USE_CORNER) / 3);
-
-        edge_at[c + 1]++;
-        use_at[c + 1] += mesh->edge_uses[e + 1] - mesh->edge_uses[e];
-    }
-    for (uint32_t c = 0; c < chunks; c++) {
-        edge_at[c + 1] += edge_at[c];
-        use_at[c + 1] += use_at[c];
-    }
-    for (uint32_t e = 0; e < edges; e++) {
-        const uint32_t c = gni_chunk_of(mesh, (mesh->uses[mesh->edge_uses[e]] & GNI_USE_CORNER) / 3);
-        const uint32_t n = mesh->edge_uses[e + 1] - mesh->edge_uses[e];
-
-        edge_uses[edge_at[c]++] = use_at[c];
-        memcpy(uses + use_at[c], mesh->uses + mesh->edge_uses[e], n * sizeof *uses);
-        use_at[c] += n;
-    }
-    edge_uses[edges] = mesh->edge_uses[edges];
-    for (uint32_t c = chunks; c > 0; c--) /* filling moved each start to the next one's */
-        edge_at[c] = edge_at[c - 1];
-    edge_at[0] = 0;
-    gni_free(context, use_at);
-    gni_free(context, mesh->edge_uses);
-    gni_free(context, mesh->uses);
-    mesh->edge_uses = edge_uses;
-    mesh->uses = uses;
-    memset(mesh->edge_of, 0xff, 3 * (size_t)mesh->info.triangle_count * sizeof *mesh->edge_of);
-    for (uint32_t e = 0; e < edges; e++)
-        for (uint32_t u = edge_uses[e]; u < edge_uses[e + 1]; u++)
-            mesh->edge_of[uses[u] & GNI_USE_CORNER] = e;
-    return GN_OK;
-}
-
 gn_result gni_make_chunks(gn_mesh *mesh)
 {
     gn_context *context = mesh->context;
     gn_mesh_info *info = &mesh->info;
-    uint32_t *stamp = gni_alloc(context, info->vertex_count, sizeof *stamp);
-    uint32_t *local = gni_alloc(context, info->vertex_count, sizeof *local);
+    uint32_t *const scratch = gni_alloc(context, info->vertex_count, 3 * sizeof *scratch);
+    const cutter c = {mesh, scratch, scratch + info->vertex_count, scratch + 2 * (size_t)info->vertex_count};
     uint32_t chunk_vertex_count = 0;
-    gn_result result = GN_E_MEMORY;
+    int failed = !scratch;
 
-    if (stamp && local) {
-        cut(mesh, stamp, local, NULL, &info->chunk_count, NULL, &chunk_vertex_count);
+    if (!failed) {
+        cut(&c, NULL, &info->chunk_count, NULL, &chunk_vertex_count);
         mesh->chunks = gni_alloc(context, info->chunk_count, sizeof *mesh->chunks);
-        mesh->chunk_edges = gni_alloc(context, (size_t)info->chunk_count + 1, sizeof *mesh->chunk_edges);
         mesh->chunk_vertices = gni_alloc(context, chunk_vertex_count, sizeof *mesh->chunk_vertices);
-        mesh->corners = gni_alloc(context, info->triangle_count, 3 * sizeof *mesh->corners);
-        mesh->edge_of = gni_alloc(context, info->triangle_count, 3 * sizeof *mesh->edge_of);
+        mesh->corners = gni_alloc(context, 3 * (size_t)info->triangle_count + 1, sizeof *mesh->corners);
+        failed = !mesh->chunks || !mesh->chunk_vertices || !mesh->corners;
     }
-    if (mesh->chunks && mesh->chunk_edges && mesh->chunk_vertices && mesh->corners && mesh->edge_of) {
-        cut(mesh, stamp, local, mesh->chunks, &info->chunk_count, mesh->chunk_vertices, &chunk_vertex_count);
-        result = sort_edges(mesh);
+    if (!failed) {
+        mesh->corners[3 * (size_t)info->triangle_count] = 0; /* caps are copied four at a time */
+        cut(&c, mesh->chunks, &info->chunk_count, mesh->chunk_vertices, &chunk_vertex_count);
     }
-    gni_free(context, stamp);
-    gni_free(context, local);
-    if (result == GN_E_MEMORY)
-        return gn_fail(context, result, "mesh: no memory for the chunks of %lu vertices",
+    gni_free(context, scratch);
+    if (failed)
+        return gn_fail(context, GN_E_MEMORY, "mesh: no memory for the chunks of %lu vertices",
                        (unsigned long)info->vertex_count);
-    return result;
+    return GN_OK;
 }

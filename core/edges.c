@@ -88,7 +88,8 @@ gn_result gni_make_edges(gn_mesh *mesh)
 
     mesh->uses = gni_alloc(context, most, sizeof *mesh->uses);
     mesh->edge_uses = gni_alloc(context, most + 1, sizeof *mesh->edge_uses);
-    if (!starts || !sorted || !mesh->uses || !mesh->edge_uses) {
+    mesh->edge_of = gni_alloc(context, most, sizeof *mesh->edge_of);
+    if (!starts || !sorted || !mesh->uses || !mesh->edge_uses || !mesh->edge_of) {
         gni_free(context, starts);
         gni_free(context, sorted);
         return gn_fail(context, GN_E_MEMORY, "mesh: no memory for the edges of %lu triangles",
@@ -102,6 +103,10 @@ gn_result gni_make_edges(gn_mesh *mesh)
             mesh->uses[u] = sorted[u].code;
         }
     mesh->edge_uses[edges] = total;
+    memset(mesh->edge_of, 0xff, most * sizeof *mesh->edge_of);
+    for (uint32_t e = 0; e < edges; e++)
+        for (uint32_t u = mesh->edge_uses[e]; u < mesh->edge_uses[e + 1]; u++)
+            mesh->edge_of[mesh->uses[u] & GNI_USE_CORNER] = e;
     mesh->info.edge_count = edges;
     gni_free(context, starts);
     gni_free(context, sorted);

@@ -28,17 +28,55 @@ typedef struct gni_part {
     float box_min[3], box_max[3];
 } gni_part;
 
+/* facing.c and casting.c: of the triangles of a mesh, in its own order. */
+typedef struct gni_casting {
+    int8_t *of;            /* [triangle_count] 1, -1, 0: as gn_casting() has it */
+    uint64_t *bits;        /* [cluster_count] those that cast */
+    uint64_t *spare;       /* [cluster_count] of backs, while facing is looked at */
+    int is_plain;          /* all that cast are turned alike, and of closed parts: clusters that cast whole have no
+                              silhouette inside */
+    uint32_t count;        /* of those that cast */
+    uint32_t looked_at;    /* triangles whose facing was computed: the others were known by their clusters */
+} gni_casting;
+
+/* clusters.c */
+#define GNI_CLUSTER 64u         /* triangles: a bit each in a word */
+#define GNI_SPECIAL 0x80000000u /* in gn_mesh.across: an edge of that number, which not two alone share as neighbours do */
+#define GNI_NOTHING 0xffffffffu /* no edge: of a degenerate triangle */
+#define GNI_MOST_LEVELS 9       /* of eights: GN_MAX_TRIANGLES in clusters */
+
+typedef struct gni_cluster {
+    float planes[4][64]; /* of the triangle of bit 8 l + j in slot 8 j + l; normals' components below 1 */
+    double most;         /* of the last row */
+} gni_cluster;
+
+/* A ball around triangles, and a cone around their normals; cosine 0: of more than half a sphere. */
+typedef struct gni_node {
+    double centre[3], radius;
+    double axis[3], cosine, sine;
+} gni_node;
+
+/* Triangles, planes, uses, parts, chunks and clusters are in the mesh's own order. */
 struct gn_mesh {
     gn_context *context;
     gn_mesh_info info;
     float *positions;    /* [vertex_count][3] */
+    uint32_t *given;     /* [triangle_count][3], as described */
+    uint32_t *order;     /* [triangle_count] the number in the description of each */
     uint32_t *triangles; /* [triangle_count][3] */
     double *planes;      /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
-    uint32_t *edge_uses; /* [edge_count + 1]: where an edge's uses start; edges stand in order of chunks */
+    uint32_t *edge_uses; /* [edge_count + 1]: where an edge's uses start */
     uint32_t *uses;
     uint32_t
         *edge_of; /* [triangle_count][3]: the edge from each corner to the next; GNI_NONE of degenerate triangles */
-    uint32_t *chunk_edges; /* [chunk_count + 1]: where a chunk's edges start */
+    uint32_t *across; /* [triangle_count][3]: the triangle beyond that edge, GNI_SPECIAL with the edge, GNI_NOTHING */
+    gni_cluster *clusters;
+    uint32_t cluster_count;
+    gni_node *nodes; /* of clusters, then of eights of them, and so on */
+    uint32_t levels[GNI_MOST_LEVELS], level_count;
+    uint32_t *border_starts; /* [cluster_count + 1] in borders */
+    uint8_t *borders;        /* corners, counted in their cluster, whose edge is not between two triangles of it */
+    gni_casting scratch;     /* for the public functions of casting.c */
     uint32_t largest;      /* the triangle of the largest area */
     double radius;         /* of a ball about the hub */
     double longest_edge;
@@ -47,11 +85,14 @@ struct gn_mesh {
     uint32_t part_triangle_count;
     gn_chunk *chunks;
     uint32_t *chunk_vertices;
-    uint16_t *corners; /* [triangle_count][3]: index in the chunk of each corner */
+    uint16_t *corners; /* [triangle_count][3]: twice the index in the chunk, that of the near vertex; one more follows */
 };
 
 /* weld.c: positions less the centre, and the triangles' indices into them. */
 gn_result gni_weld(gn_mesh *mesh, const gn_mesh_desc *desc);
+
+/* order.c: mesh->order and mesh->triangles, from mesh->given. */
+gn_result gni_order_triangles(gn_mesh *mesh);
 
 /* edges.c: edges and their uses. */
 gn_result gni_make_edges(gn_mesh *mesh);
@@ -63,7 +104,42 @@ gn_result gni_make_parts(gn_mesh *mesh);
  * 0 when that is not so or not sure; -1 when memory ran out. */
 int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part);
 
-/* chunks.c: 16-bit indices; sorts the edges by chunk. */
+/* clusters.c */
+gn_result gni_make_clusters(gn_mesh *mesh);
+
+/* facing.c: bits of triangles that show front, or back, to the light; [cluster_count] each. By the tree, and without;
+ * return how many triangles were looked at. */
+uint32_t gni_find_facing(const gn_mesh *mesh, const double light[4], uint64_t *front, uint64_t *back);
+uint32_t gni_scan_facing(const gn_mesh *mesh, const double light[4], uint64_t *front, uint64_t *back);
+
+/* casting.c */
+void gni_find_casting(const gn_mesh *mesh, const double light[4], gni_casting *c);
+void gni_find_object_casting(const gn_object *object, const gn_light *light, gni_casting *c);
+/* From `of`: all else. */
+void gni_find_bits(const gn_mesh *mesh, gni_casting *c);
+
+/* Of a word that is not 0. */
+static inline uint32_t gni_lowest_bit(uint64_t word)
+{
+#if defined(__GNUC__)
+    return (uint32_t)__builtin_ctzll(word);
+#else
+    uint32_t i = 0;
+
+    while (!(word >> i & 1))
+        i++;
+    return i;
+#endif
+}
+
+static inline uint32_t gni_count_bits(uint64_t word)
+{
+    word -= word >> 1 & 0x5555555555555555u;
+    word = (word & 0x3333333333333333u) + (word >> 2 & 0x3333333333333333u);
+    return (uint32_t)(((word + (word >> 4)) & 0x0f0f0f0f0f0f0f0fu) * 0x0101010101010101u >> 56);
+}
+
+/* chunks.c: 16-bit indices. */
 gn_result gni_make_chunks(gn_mesh *mesh);
 uint32_t gni_chunk_of(const gn_mesh *mesh, uint32_t triangle);
 
@@ -107,21 +183,23 @@ static inline void gni_vertex(double out[3], const gn_mesh *mesh, uint32_t verte
     gn_mat4_transform(out, matrix, given, 1.0);
 }
 
-/* volume.c: the index stream of one chunk of a volume, piece by piece. Each returns the indices written. */
+/* volume.c: the index stream of one chunk of a volume, piece by piece. Each returns the indices written; a few more may
+ * be overwritten. */
 
 /* At most this many indices for a triangle: three sides of two triangles each, both caps, and a cap on a patch; where
  * caps are fans, over no more edges than triangles or of closed meshes, they have fewer sides. */
 #define GNI_MOST_INDICES 27u
+#define GNI_SLACK        4u /* indices behind the last */
 
 /* converging: all far vertices are one point (a directional light to infinity): sides are single triangles and the dark
  * cap has no area. */
-uint32_t gni_put_sides(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, int converging, uint16_t *out);
+uint32_t gni_put_sides(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int converging, uint16_t *out);
 /* sides: as written, of_a_side indices each; out may be the same. */
 uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
                      uint16_t *out);
-uint32_t gni_put_dark_cap(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, uint16_t *out);
+uint32_t gni_put_dark_cap(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, uint16_t *out);
 /* Of the triangles whose casting is `turn`. */
-uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, int8_t turn, uint16_t *out);
+uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int8_t turn, uint16_t *out);
 
 /* camera.c */
 gn_result gni_check_camera(gn_context *context, const gn_camera *camera);

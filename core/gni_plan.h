@@ -96,12 +96,12 @@ typedef struct gni_draft {
     gn_record *flats;          /* fans on patches, until the light's volumes are all made */
     uint32_t flat_count;
     gni_hull all_lit;        /* a box around all that receives and is lit by it */
-    int8_t *casting, *group; /* of the caster at hand; group: those of one volume of it */
+    gni_casting casting, group; /* of the caster at hand; group: those of one volume of it */
     uint8_t *end_of;
     gni_region *region; /* NULL: volumes need not end */
     gni_ends *ends;
     gni_layers *layers; /* NULL: nothing can nest too much; nor are there the six arrays that follow */
-    int8_t *piece;      /* of the volume at hand: those of one piece */
+    gni_casting piece;  /* of the volume at hand: those of one piece */
     uint32_t *order, *parent, *end, *ring;
     uint32_t *cheap_of; /* [object_count] layers of each caster of the light at hand, a cheap bound */
     gni_choice choice;
@@ -194,14 +194,13 @@ typedef struct gni_volume {
     gn_far far_end;
     const double *end_plane; /* view space; not read where there is a reach */
     double end_reach;
-    uint32_t triangles; /* that cast */
     int unpatched;      /* as in gn_record */
 } gni_volume;
 
 /* slivers.c: the eye in the space of the object's mesh, and how near to it a triangle's plane must come to be drawn in a
  * light cap by z-pass. 0 where all must be drawn. */
 int gni_find_slivers(const gni_draft *d, uint32_t object, double eye[4], double *limit);
-uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const int8_t *casting, const double eye[4], double limit,
+uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, const double eye[4], double limit,
                          uint16_t *out);
 
 /* plan_volumes.c */
@@ -211,16 +210,15 @@ void gni_plane_before(double out[4], const double plane[4], const double m[16]);
 gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent);
 /* Fans of the same caster on patches, into d->flats. first_record: of its volume, if it has one. */
 void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record);
-uint32_t gni_count_casting(const gn_mesh *mesh, const int8_t *casting);
 /* Records of one volume: a record for each chunk that has any of it. Returns the sum of the silhouette's weights, or
  * GNI_NONE where no sides are drawn. */
-uint32_t gni_add_records(gni_draft *d, const gni_volume *volume, const int8_t *casting);
+uint32_t gni_add_records(gni_draft *d, const gni_volume *volume, const gni_casting *casting);
 
 /* sweep.c: no point has more layers of the records from first_record on than this; UINT32_MAX where that is not known. */
 uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record);
 
 /* batches.c: the same, cut so that each piece keeps within the bits, and folded before the batch would not. */
-void gni_add_batched(gni_draft *d, const gni_volume *volume, const int8_t *casting);
+void gni_add_batched(gni_draft *d, const gni_volume *volume, const gni_casting *casting);
 /* Whether the light's casters, all with their records made from first_record on, surely keep within `limit` layers. */
 int gni_layers_fit(gni_draft *d, uint32_t limit, uint32_t first_record);
 /* Ends a batch: its step of volumes, and one that folds it if more follows. */

@@ -88,7 +88,7 @@ typedef struct gn_mesh_desc {
  * comes the mesh's hub, about which fans are drawn. */
 typedef struct gn_chunk {
     uint32_t first_vertex, vertex_count; /* in gn_mesh_info.chunk_vertices */
-    uint32_t first_triangle, triangle_count;
+    uint32_t first_triangle, triangle_count; /* in gn_mesh_info.corners */
 } gn_chunk;
 
 /* What a mesh is. Arrays live as long as the mesh. */
@@ -110,19 +110,20 @@ typedef struct gn_mesh_info {
     const uint32_t *triangles;      /* [triangle_count][3], into positions */
     const gn_chunk *chunks;         /* [chunk_count] */
     const uint32_t *chunk_vertices; /* into positions */
-    const uint16_t *corners;        /* [triangle_count][3]: each corner's vertex, in its chunk */
+    const uint16_t *corners; /* [triangle_count][3]: index of each corner's near vertex, in its chunk. Not in the order of
+                                `triangles`, but in the mesh's own, in which chunks are runs */
 } gn_mesh_info;
 
 /* Copies what it needs. Vertices are welded by exact position (-0 equals 0). Degenerate and duplicate triangles are
  * lawful; a mesh may have no triangle at all. Returns GN_OK, GN_E_ARG, GN_E_MESH, GN_E_MEMORY; *mesh is NULL unless
- * GN_OK. Time O(triangles log triangles); holds about 100 bytes a triangle. */
+ * GN_OK. Time O(triangles log triangles); holds about 150 bytes a triangle. */
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **mesh);
 void gn_mesh_destroy(gn_mesh *mesh);
 const gn_mesh_info *gn_mesh_get_info(const gn_mesh *mesh);
 
 /* Which side of each triangle looks at the light: 1 its front, -1 its back, 0 neither (the light in its plane, or no
- * area). light: [4] object space less the mesh's centre. facing: [triangle_count]. Double precision, one expression
- * (DESIGN.md, decision 1); allocates nothing. */
+ * area). light: [4] object space less the mesh's centre. facing: [triangle_count]. The sign of one expression in double
+ * precision, found in floats where these suffice (DESIGN.md, decision 1); allocates nothing. */
 void gn_facing(const gn_mesh *mesh, const double light[4], int8_t *facing);
 
 /* Which triangles cast, and which way they are turned: 1 as wound, -1 turned round, 0 not casting. In a solid part

@@ -13,12 +13,21 @@ void gn_mesh_destroy(gn_mesh *mesh)
         return;
     context = mesh->context;
     gni_free(context, mesh->positions);
+    gni_free(context, mesh->given);
+    gni_free(context, mesh->order);
     gni_free(context, mesh->triangles);
     gni_free(context, mesh->planes);
     gni_free(context, mesh->edge_uses);
     gni_free(context, mesh->uses);
     gni_free(context, mesh->edge_of);
-    gni_free(context, mesh->chunk_edges);
+    gni_free(context, mesh->across);
+    gni_free(context, mesh->clusters);
+    gni_free(context, mesh->nodes);
+    gni_free(context, mesh->border_starts);
+    gni_free(context, mesh->borders);
+    gni_free(context, mesh->scratch.of);
+    gni_free(context, mesh->scratch.bits);
+    gni_free(context, mesh->scratch.spare);
     gni_free(context, mesh->parts);
     gni_free(context, mesh->part_triangles);
     gni_free(context, mesh->chunks);
@@ -97,6 +106,19 @@ static gn_result make_planes(gn_mesh *mesh)
     return GN_OK;
 }
 
+static gn_result make_scratch(gn_mesh *mesh)
+{
+    gni_casting *c = &mesh->scratch;
+
+    c->of = gni_alloc(mesh->context, mesh->info.triangle_count, 1);
+    c->bits = gni_alloc(mesh->context, mesh->cluster_count, sizeof *c->bits);
+    c->spare = gni_alloc(mesh->context, mesh->cluster_count, sizeof *c->spare);
+    if (!c->of || !c->bits || !c->spare)
+        return gn_fail(mesh->context, GN_E_MEMORY, "mesh: no memory for the facing of %lu triangles",
+                       (unsigned long)mesh->info.triangle_count);
+    return GN_OK;
+}
+
 static void find_hub(gn_mesh *mesh)
 {
     double square = 0.0;
@@ -140,6 +162,8 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
     mesh->context = context;
     result = gni_weld(mesh, desc);
     if (result == GN_OK)
+        result = gni_order_triangles(mesh);
+    if (result == GN_OK)
         result = make_planes(mesh);
     if (result == GN_OK)
         result = gni_make_edges(mesh);
@@ -147,12 +171,16 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
         result = gni_make_parts(mesh);
     if (result == GN_OK)
         result = gni_make_chunks(mesh);
+    if (result == GN_OK)
+        result = gni_make_clusters(mesh);
+    if (result == GN_OK)
+        result = make_scratch(mesh);
     if (result != GN_OK) {
         gn_mesh_destroy(mesh);
         return result;
     }
     mesh->info.positions = mesh->positions;
-    mesh->info.triangles = mesh->triangles;
+    mesh->info.triangles = mesh->given;
     mesh->info.chunks = mesh->chunks;
     mesh->info.chunk_vertices = mesh->chunk_vertices;
     mesh->info.corners = mesh->corners;

@@ -30,6 +30,15 @@ static void *cut(arena *a, size_t count, size_t size)
     return block;
 }
 
+static void cut_casting(arena *a, gni_casting *c, size_t triangles)
+{
+    const size_t clusters = (triangles + GNI_CLUSTER - 1) / GNI_CLUSTER;
+
+    c->of = cut(a, triangles, 1);
+    c->bits = cut(a, clusters, sizeof *c->bits);
+    c->spare = cut(a, clusters, sizeof *c->spare);
+}
+
 /* The most layers that one batch holds where a light needs several. */
 static uint32_t batch_limit(const gn_scene *s)
 {
@@ -79,23 +88,23 @@ static int lay_out(gni_draft *d, arena *a)
     d->heights = cut(a, s->object_count, sizeof *d->heights);
     d->records = cut(a, (records + GN_MOST_PATCHES * chunks) * s->light_count, sizeof *d->records);
     d->flats = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->flats);
-    d->casting = cut(a, triangles, 1);
+    cut_casting(a, &d->casting, triangles);
     if (gni_must_end(s)) {
-        d->group = cut(a, triangles, 1);
+        cut_casting(a, &d->group, triangles);
         d->end_of = cut(a, triangles, 1);
         d->region = cut(a, 1, sizeof *d->region);
         d->ends = cut(a, 1, sizeof *d->ends);
     }
     if (all > limit) {
         d->layers = cut(a, 1, sizeof *d->layers);
-        d->piece = cut(a, triangles, 1);
+        cut_casting(a, &d->piece, triangles);
         d->order = cut(a, triangles, sizeof *d->order);
         d->parent = cut(a, triangles, sizeof *d->parent);
         d->end = cut(a, triangles, sizeof *d->end);
         d->ring = cut(a, triangles, sizeof *d->ring);
         d->cheap_of = cut(a, s->object_count, sizeof *d->cheap_of);
     }
-    d->indices = cut(a, indices * s->light_count, sizeof *d->indices); /* last: what it does not need stays untouched */
+    d->indices = cut(a, indices * s->light_count + GNI_SLACK, sizeof *d->indices); /* last: what it does not need stays untouched */
     return !a->overflow;
 }
 
@@ -122,10 +131,10 @@ static void find_range(gni_draft *d)
 
             if (!(object->flags & GN_CASTS))
                 continue;
-            gn_object_casting(object, &s->lights[light], d->casting);
+            gni_find_object_casting(object, &s->lights[light], &d->casting);
             gni_light_in_view(d, &s->lights[light], light_view);
             gni_model_view(model_view, &s->camera, object->model, object->mesh->info.centre);
-            if (gni_choose_ends(d->ends, d->region, object->mesh, model_view, light_view, d->casting, d->end_of))
+            if (gni_choose_ends(d->ends, d->region, object->mesh, model_view, light_view, d->casting.of, d->end_of))
                 deepest = fmax(deepest, d->ends->deepest);
         }
     d->plan->depth_range[0] = s->camera.znear;

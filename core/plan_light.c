@@ -96,7 +96,7 @@ static gn_result add_casters(gni_draft *d)
         if (d->layers)
             d->cheap_of[i] = 0;
         if (caster->skip == GN_SKIP_NOT || caster->patches)
-            gn_object_casting(&d->scene->objects[i], &d->scene->lights[d->light], d->casting);
+            gni_find_object_casting(&d->scene->objects[i], &d->scene->lights[d->light], &d->casting);
         if (caster->skip == GN_SKIP_NOT)
             result = gni_add_caster(d, i, &at_hand, &extent);
         if (caster->patches)

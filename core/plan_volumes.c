@@ -122,7 +122,8 @@ static int is_better_fan(const gn_mesh *mesh, uint32_t edges, uint32_t triangles
     return mesh->info.chunk_count > 1 ? mesh->info.solid_part_count == mesh->info.part_count : edges < triangles;
 }
 
-static int is_fan(const gni_draft *d, const gni_volume *v, const gn_record *r, const uint16_t *sides, uint32_t of_a_side)
+static int is_fan(const gni_draft *d, const gni_volume *v, const gn_record *r, uint32_t triangles,
+                  const uint16_t *sides, uint32_t of_a_side)
 {
     const gn_object *object = &d->scene->objects[v->object];
     const gn_mesh *mesh = object->mesh;
@@ -130,7 +131,7 @@ static int is_fan(const gni_draft *d, const gni_volume *v, const gn_record *r, c
     double model_view[16];
 
     if (d->lights[d->light].method != GN_METHOD_STENCIL || v->end_reach > 0.0 || v->far_end == GN_FAR_CLAMPED ||
-        !is_better_fan(mesh, r->side_count / of_a_side, v->triangles))
+        !is_better_fan(mesh, r->side_count / of_a_side, triangles))
         return 0;
     if (v->far_end == GN_FAR_ENDED)
         return !d->region;
@@ -140,7 +141,7 @@ static int is_fan(const gni_draft *d, const gni_volume *v, const gn_record *r, c
     return gni_runs_round_hub(mesh, r->chunk, sides, r->side_count, of_a_side, model_view, light);
 }
 
-uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *casting)
+uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const gni_casting *casting)
 {
     const gn_mesh *mesh = d->scene->objects[v->object].mesh;
     gn_plan_caster *caster = &d->casters[(size_t)d->light * d->scene->object_count + v->object];
@@ -162,7 +163,7 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const int8_t *castin
         if (parts & GN_SIDES)
             at += r->side_count = gni_put_sides(mesh, c, casting, converges, at);
         if (parts & GN_DARK_CAP && !converges) {
-            r->fan = is_fan(d, v, r, out, of_a_side);
+            r->fan = is_fan(d, v, r, casting->count, out, of_a_side);
             r->dark_cap_count = r->fan ? gni_put_fan(mesh, c, out, r->side_count, of_a_side, at)
                                        : gni_put_dark_cap(mesh, c, casting, at);
             at += r->dark_cap_count;
@@ -202,15 +203,6 @@ static void note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint3
         d->cheap_of[object] += cheap;
 }
 
-uint32_t gni_count_casting(const gn_mesh *mesh, const int8_t *casting)
-{
-    uint32_t count = 0;
-
-    for (uint32_t t = 0; t < mesh->info.triangle_count; t++)
-        count += casting[t] != 0;
-    return count;
-}
-
 /* The fan of a chunk among its volume's records; 0 where it has none. */
 static int find_fan(const gni_draft *d, uint32_t first_record, uint32_t chunk, gn_record *fan)
 {
@@ -227,7 +219,7 @@ static int find_fan(const gni_draft *d, uint32_t first_record, uint32_t chunk, g
 void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record)
 {
     const gn_mesh *mesh = d->scene->objects[object].mesh;
-    const uint32_t triangles = gni_count_casting(mesh, d->casting);
+    const uint32_t triangles = d->casting.count;
     uint32_t silhouette = 0;
 
     for (uint32_t c = 0; c < mesh->info.chunk_count && triangles; c++) {
@@ -235,18 +227,18 @@ void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint
         gn_record shared = {0};
 
         if (!find_fan(d, first_record, c, &shared)) {
-            const uint32_t sides = gni_put_sides(mesh, c, d->casting, 1, out);
+            const uint32_t sides = gni_put_sides(mesh, c, &d->casting, 1, out);
 
             shared.first_index = d->plan->index_count;
             shared.fan = is_better_fan(mesh, sides / 3, triangles);
             shared.dark_cap_count =
-                shared.fan ? gni_put_fan(mesh, c, out, sides, 3, out) : gni_put_dark_cap(mesh, c, d->casting, out);
+                shared.fan ? gni_put_fan(mesh, c, out, sides, 3, out) : gni_put_dark_cap(mesh, c, &d->casting, out);
             d->plan->index_count += shared.dark_cap_count;
         }
         silhouette += shared.dark_cap_count / 3;
         for (uint32_t p = 0; p < d->patch_count && shared.dark_cap_count; p++)
             if (extent->on[p] == GNI_FANS_PATCH) {
-                const gni_volume v = {object, NULL, extent, GN_FAR_ENDED, d->patches[p].plane, 0.0, triangles, 0};
+                const gni_volume v = {object, NULL, extent, GN_FAR_ENDED, d->patches[p].plane, 0.0, 0};
                 gn_record *r = &d->flats[d->flat_count++];
 
                 start_record(r, d, &v, extent->shadow[p], c);
@@ -260,23 +252,22 @@ void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint
     note_layers(d, object, triangles, silhouette);
 }
 
-static void add_volume(gni_draft *d, gni_volume *v, const int8_t *casting)
+static void add_volume(gni_draft *d, const gni_volume *v, const gni_casting *casting)
 {
-    v->triangles = gni_count_casting(d->scene->objects[v->object].mesh, casting);
-    d->casting_count += v->triangles;
+    d->casting_count += casting->count;
     if (d->is_batched)
         gni_add_batched(d, v, casting);
     else
-        note_layers(d, v->object, v->triangles, gni_add_records(d, v, casting));
+        note_layers(d, v->object, casting->count, gni_add_records(d, v, casting));
 }
 
 static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent, gn_far far_end,
                         int unpatched)
 {
     static const double infinity[4] = {0, 0, 0, 1};
-    gni_volume v = {object, at_hand, extent, far_end, infinity, 0.0, 0, unpatched};
+    const gni_volume v = {object, at_hand, extent, far_end, infinity, 0.0, unpatched};
 
-    add_volume(d, &v, d->casting);
+    add_volume(d, &v, &d->casting);
 }
 
 /* Whether a plane of the camera cuts the object's box. Its surfaces are clipped there; drawn under depth clamp they
@@ -334,18 +325,20 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
     double model_view[16];
 
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
-    if (!gni_choose_ends(d->ends, d->region, mesh, model_view, d->bounds.light, d->casting, d->end_of))
+    if (!gni_choose_ends(d->ends, d->region, mesh, model_view, d->bounds.light, d->casting.of, d->end_of))
         return clamp_or_refuse(d, object_index, at_hand, extent);
     for (uint32_t p = 0; p < d->ends->count; p++) {
-        gni_volume v = {object_index, at_hand, extent, GN_FAR_ENDED, d->ends->planes[p], d->ends->reach, 0, 0};
+        const gni_volume v = {object_index, at_hand, extent, GN_FAR_ENDED, d->ends->planes[p], d->ends->reach, 0};
         int any = 0;
 
         for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
-            d->group[t] = d->casting[t] && d->end_of[t] == p ? d->casting[t] : 0;
-            any |= d->group[t];
+            d->group.of[t] = d->casting.of[t] && d->end_of[t] == p ? d->casting.of[t] : 0;
+            any |= d->group.of[t];
         }
-        if (any)
-            add_volume(d, &v, d->group);
+        if (!any)
+            continue;
+        gni_find_bits(mesh, &d->group);
+        add_volume(d, &v, &d->group);
     }
     return GN_OK;
 }
@@ -359,9 +352,9 @@ gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand,
     if (d->region)
         return add_ended(d, object, at_hand, extent);
     if (extent->is_ended) {
-        gni_volume v = {object, at_hand, extent, GN_FAR_ENDED, extent->end_plane, 0.0, 0, unpatched};
+        const gni_volume v = {object, at_hand, extent, GN_FAR_ENDED, extent->end_plane, 0.0, unpatched};
 
-        add_volume(d, &v, d->casting);
+        add_volume(d, &v, &d->casting);
     } else {
         add_endless(d, object, at_hand, extent, GN_FAR_INFINITE, unpatched);
     }

@@ -8,6 +8,19 @@
  * Algorithm for Opaque and Transparent Nonmanifold Casters. Journal of Graphics Tools 13(3), 2008. */
 #include "gni.h"
 
+/* As gni_edge_weight(), of casting in the order of the description. */
+static int32_t weight_of(const gn_mesh *mesh, uint32_t edge, const int8_t *casting)
+{
+    int32_t weight = 0;
+
+    for (uint32_t u = mesh->edge_uses[edge]; u < mesh->edge_uses[edge + 1]; u++) {
+        const int8_t c = casting[mesh->order[(mesh->uses[u] & GNI_USE_CORNER) / 3]];
+
+        weight += mesh->uses[u] & GNI_USE_DOWN ? -c : c;
+    }
+    return weight;
+}
+
 gn_result gn_silhouette(const gn_mesh *mesh, const int8_t *casting, gn_edge *edges, size_t capacity, size_t *count)
 {
     size_t needed = 0;
@@ -15,7 +28,7 @@ gn_result gn_silhouette(const gn_mesh *mesh, const int8_t *casting, gn_edge *edg
     if (!mesh || !casting || !count || (!edges && capacity))
         return gn_fail(mesh ? mesh->context : NULL, GN_E_ARG, "gn_silhouette: NULL argument");
     for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
-        const int32_t weight = gni_edge_weight(mesh, e, casting);
+        const int32_t weight = weight_of(mesh, e, casting);
         const uint32_t use = mesh->uses[mesh->edge_uses[e]], corner = use & GNI_USE_CORNER;
         const uint32_t from = mesh->triangles[corner];
         const uint32_t to = mesh->triangles[gni_next_corner(corner)];

@@ -12,6 +12,7 @@
 #include "gni_plan.h"
 
 #include <math.h>
+#include <string.h>
 
 #define HEIGHT 0.125 /* of a pixel */
 
@@ -45,20 +46,22 @@ int gni_find_slivers(const gni_draft *d, uint32_t object_index, double eye[4], d
     return isfinite(*limit);
 }
 
-uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk_index, const int8_t *casting, const double eye[4], double limit,
+uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk_index, const gni_casting *c, const double eye[4], double limit,
                          uint16_t *out)
 {
     const gn_chunk *chunk = &mesh->chunks[chunk_index];
-    uint32_t count = 0;
+    const uint32_t end = (chunk->first_triangle + chunk->triangle_count + GNI_CLUSTER - 1) / GNI_CLUSTER;
+    uint16_t *at = out;
 
-    for (uint32_t t = chunk->first_triangle; t < chunk->first_triangle + chunk->triangle_count; t++) {
-        const double *plane = mesh->planes + 4 * (size_t)t;
-        const uint16_t *c = mesh->corners + 3 * (size_t)t;
+    for (uint32_t cluster = chunk->first_triangle / GNI_CLUSTER; cluster < end; cluster++)
+        for (uint64_t bits = c->bits[cluster]; bits; bits &= bits - 1) {
+            const uint32_t t = cluster * GNI_CLUSTER + gni_lowest_bit(bits);
+            const double *plane = mesh->planes + 4 * (size_t)t;
 
-        if (!casting[t] || gni_dot(plane, eye) + plane[3] > limit)
-            continue;
-        for (int k = 0; k < 3; k++)
-            out[count++] = (uint16_t)(2u * c[k]);
-    }
-    return count;
+            if (gni_dot(plane, eye) + plane[3] > limit)
+                continue;
+            memcpy(at, mesh->corners + 3 * (size_t)t, 4 * sizeof *at); /* one too many, which is written over */
+            at += 3;
+        }
+    return (uint32_t)(at - out);
 }

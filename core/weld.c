@@ -61,7 +61,7 @@ static uint32_t number_vertices(gn_mesh *mesh, const gn_mesh_desc *desc, uint32_
             memcpy(mesh->positions + 3 * (size_t)count, p, sizeof p);
             table[slot] = count++;
         }
-        mesh->triangles[i] = table[slot];
+        mesh->given[i] = table[slot];
     }
     return count;
 }
@@ -103,8 +103,8 @@ gn_result gni_weld(gn_mesh *mesh, const gn_mesh_desc *desc)
         mask = 2 * mask + 1;
     table = gni_alloc(context, (size_t)mask + 1, sizeof *table);
     mesh->positions = gni_alloc(context, most, 3 * sizeof(float));
-    mesh->triangles = gni_alloc(context, corners, sizeof *mesh->triangles);
-    if (!table || !mesh->positions || !mesh->triangles) {
+    mesh->given = gni_alloc(context, corners, sizeof *mesh->given);
+    if (!table || !mesh->positions || !mesh->given) {
         gni_free(context, table);
         return gn_fail(context, GN_E_MEMORY, "mesh: no memory to weld %lu vertices", (unsigned long)desc->vertex_count);
     }

@@ -64,18 +64,8 @@ static void send_vertices(const gn_gl *gl, const gn_mesh_info *info)
 /* Every triangle by its near vertices. */
 static void send_surface(const gn_gl *gl, const gn_mesh_info *info)
 {
-    const size_t count = 3 * (size_t)info->triangle_count;
-    uint16_t batch[BATCH];
-
-    gl->glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(count * sizeof batch[0]), NULL, GL_STATIC_DRAW);
-    for (size_t first = 0; first < count; first += BATCH) {
-        const size_t n = count - first < BATCH ? count - first : BATCH;
-
-        for (size_t i = 0; i < n; i++)
-            batch[i] = (uint16_t)(2 * info->corners[first + i]);
-        gl->glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * sizeof batch[0]),
-                            (GLsizeiptr)(n * sizeof batch[0]), batch);
-    }
+    gl->glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(3 * (size_t)info->triangle_count * sizeof *info->corners),
+                     info->corners, GL_STATIC_DRAW);
 }
 
 gn_result gn_gles_upload(gn_gles *g, const gn_mesh *mesh)

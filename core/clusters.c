@@ -1,0 +1,205 @@
+/* clusters.c - runs of 64 triangles, and a tree over them: what a light needs to look at many triangles at once.
+ *
+ * A cluster has its planes as floats in lanes, for facing.c; the corners whose neighbour is in another cluster; and a
+ * node: a ball around its vertices and a cone around its normals. Eight nodes are a node of the next level. Where ball and
+ * cone say that a light sees all fronts, or all backs, nothing below is looked at: the cost of a silhouette then follows the
+ * silhouette's length, not the triangles' number (Sander et al., Silhouette Clipping, 2000, search such a tree of cones). */
+#include "gni.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A plane by a power of two: its normal's greatest component from a half to 1. */
+static int exponent_of(const double plane[4])
+{
+    int exponent;
+
+    frexp(fmax(fabs(plane[0]), fmax(fabs(plane[1]), fabs(plane[2]))), &exponent);
+    return exponent;
+}
+
+static void fill_lanes(const gn_mesh *mesh, uint32_t index)
+{
+    gni_cluster *c = &mesh->clusters[index];
+    const uint32_t first = index * GNI_CLUSTER;
+
+    memset(c, 0, sizeof *c);
+    for (uint32_t i = 0; i < GNI_CLUSTER && first + i < mesh->info.triangle_count; i++) {
+        const double *plane = mesh->planes + 4 * (size_t)(first + i);
+        const int shift = -exponent_of(plane);
+        /* bit 8 l + j of a word is lane l of vector j */
+        const uint32_t slot = (i & 7u) * 8u + (i >> 3);
+
+        for (int k = 0; k < 4; k++)
+            c->planes[k][slot] = (float)ldexp(plane[k], shift);
+        if (!(fabs((double)c->planes[3][slot]) <= c->most))
+            c->most = fabs((double)c->planes[3][slot]);
+    }
+}
+
+static void unit(double v[3])
+{
+    const double length = sqrt(gni_dot(v, v));
+
+    for (int k = 0; k < 3; k++)
+        v[k] = length > 0.0 ? v[k] / length : 0.0;
+}
+
+/* A cone of half angle 90 degrees or more says nothing. */
+static void open_cone(gni_node *n, double cosine)
+{
+    n->cosine = cosine > 1e-3 ? cosine : 0.0;
+    n->sine = sqrt(1.0 - n->cosine * n->cosine);
+}
+
+static void make_leaf(const gn_mesh *mesh, uint32_t index)
+{
+    gni_node *n = &mesh->nodes[index];
+    const uint32_t first = index * GNI_CLUSTER, rest = mesh->info.triangle_count - first;
+    const uint32_t end = first + (rest < GNI_CLUSTER ? rest : GNI_CLUSTER);
+    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, cosine = 1.0, square = 0.0;
+
+    memset(n, 0, sizeof *n);
+    for (uint32_t t = first; t < end; t++) {
+        double normal[3];
+
+        memcpy(normal, mesh->planes + 4 * (size_t)t, sizeof normal);
+        unit(normal);
+        for (int k = 0; k < 3; k++) {
+            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
+
+            n->axis[k] += normal[k];
+            for (int axis = 0; axis < 3; axis++) {
+                low[axis] = fmin(low[axis], (double)p[axis]);
+                high[axis] = fmax(high[axis], (double)p[axis]);
+            }
+        }
+    }
+    unit(n->axis);
+    for (int k = 0; k < 3; k++)
+        n->centre[k] = 0.5 * low[k] + 0.5 * high[k];
+    for (uint32_t t = first; t < end; t++) {
+        double normal[3];
+
+        memcpy(normal, mesh->planes + 4 * (size_t)t, sizeof normal);
+        unit(normal); /* of no area: 0, and the cone is open */
+        cosine = fmin(cosine, gni_dot(normal, n->axis));
+        for (int k = 0; k < 3; k++) {
+            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
+            const double d[3] = {(double)p[0] - n->centre[0], (double)p[1] - n->centre[1], (double)p[2] - n->centre[2]};
+
+            square = fmax(square, gni_dot(d, d));
+        }
+    }
+    n->radius = sqrt(square);
+    open_cone(n, cosine);
+}
+
+static void make_inner(const gn_mesh *mesh, gni_node *n, const gni_node *children, uint32_t count)
+{
+    double cosine = 1.0, low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+
+    (void)mesh;
+    memset(n, 0, sizeof *n);
+    for (uint32_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++) {
+            n->axis[k] += children[i].axis[k];
+            low[k] = fmin(low[k], children[i].centre[k] - children[i].radius);
+            high[k] = fmax(high[k], children[i].centre[k] + children[i].radius);
+        }
+    unit(n->axis);
+    for (int k = 0; k < 3; k++)
+        n->centre[k] = 0.5 * low[k] + 0.5 * high[k];
+    for (uint32_t i = 0; i < count; i++) {
+        const gni_node *c = &children[i];
+        const double d[3] = {c->centre[0] - n->centre[0], c->centre[1] - n->centre[1], c->centre[2] - n->centre[2]};
+        const double between = fmin(gni_dot(c->axis, n->axis), 1.0);
+
+        n->radius = fmax(n->radius, sqrt(gni_dot(d, d)) + c->radius);
+        /* the cosine of the sum of the angles, if that is below 90 degrees */
+        cosine = c->cosine > 0.0 && between > 0.0
+                     ? fmin(cosine, between * c->cosine - sqrt(1.0 - between * between) * c->sine)
+                     : 0.0;
+        if (!(cosine > 0.0))
+            break;
+    }
+    open_cone(n, cosine);
+}
+
+static void make_tree(gn_mesh *mesh)
+{
+    uint32_t level_first = 0, level_count = mesh->cluster_count;
+
+    mesh->level_count = 1;
+    mesh->levels[0] = 0;
+    for (uint32_t i = 0; i < level_count; i++)
+        make_leaf(mesh, i);
+    while (level_count > 1) {
+        const uint32_t next = level_first + level_count, count = (level_count + 7u) / 8u;
+
+        for (uint32_t i = 0; i < count; i++)
+            make_inner(mesh, &mesh->nodes[next + i], &mesh->nodes[level_first + 8u * i],
+                       level_count - 8u * i < 8u ? level_count - 8u * i : 8u);
+        mesh->levels[mesh->level_count++] = next;
+        level_first = next;
+        level_count = count;
+    }
+}
+
+/* What lies across each corner's edge, and which corners are on a cluster's border. */
+static uint32_t find_borders(gn_mesh *mesh, uint8_t *borders)
+{
+    uint32_t count = 0;
+
+    for (uint32_t c = 0; c < mesh->cluster_count; c++) {
+        mesh->border_starts[c] = count;
+        for (uint32_t i = 0; i < 3 * GNI_CLUSTER && 3 * (c * GNI_CLUSTER) + i < 3 * mesh->info.triangle_count; i++) {
+            const uint32_t corner = 3 * (c * GNI_CLUSTER) + i, across = mesh->across[corner];
+
+            if (across != GNI_NOTHING && (across & GNI_SPECIAL || across / GNI_CLUSTER != c)) {
+                if (borders)
+                    borders[count] = (uint8_t)i;
+                count++;
+            }
+        }
+    }
+    mesh->border_starts[mesh->cluster_count] = count;
+    return count;
+}
+
+static void find_neighbours(gn_mesh *mesh)
+{
+    memset(mesh->across, 0xff, 3 * (size_t)mesh->info.triangle_count * sizeof *mesh->across); /* GNI_NOTHING */
+    for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
+        const uint32_t first = mesh->edge_uses[e], end = mesh->edge_uses[e + 1];
+        const int is_plain = end - first == 2 && (mesh->uses[first] ^ mesh->uses[first + 1]) & GNI_USE_DOWN;
+
+        for (uint32_t u = first; u < end; u++)
+            mesh->across[mesh->uses[u] & GNI_USE_CORNER] =
+                is_plain ? (mesh->uses[first + end - 1 - u] & GNI_USE_CORNER) / 3 : e | GNI_SPECIAL;
+    }
+}
+
+gn_result gni_make_clusters(gn_mesh *mesh)
+{
+    gn_context *context = mesh->context;
+    const uint32_t count = (mesh->info.triangle_count + GNI_CLUSTER - 1) / GNI_CLUSTER;
+
+    mesh->cluster_count = count;
+    mesh->clusters = gni_alloc(context, count, sizeof *mesh->clusters);
+    mesh->nodes = gni_alloc(context, (size_t)count + count / 7 + 16, sizeof *mesh->nodes);
+    mesh->border_starts = gni_alloc(context, (size_t)count + 1, sizeof *mesh->border_starts);
+    mesh->across = gni_alloc(context, mesh->info.triangle_count, 3 * sizeof *mesh->across);
+    if (mesh->clusters && mesh->nodes && mesh->border_starts && mesh->across) {
+        find_neighbours(mesh);
+        mesh->borders = gni_alloc(context, find_borders(mesh, NULL), 1);
+    }
+    if (!mesh->borders)
+        return gn_fail(context, GN_E_MEMORY, "mesh: no memory for %lu clusters", (unsigned long)count);
+    find_borders(mesh, mesh->borders);
+    for (uint32_t c = 0; c < count; c++)
+        fill_lanes(mesh, c);
+    if (count)
+        make_tree(mesh);
+    return GN_OK;
+}
