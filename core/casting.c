@@ -14,6 +14,13 @@
 #include <math.h>
 #include <string.h>
 
+/* Of a byte in all eight bytes of a word, one bit each: bit k in the k-th byte of memory. */
+#if defined(__BYTE_ORDER__) && __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__
+#define PICK_BITS 0x0102040810204080u
+#else
+#define PICK_BITS 0x8040201008040201u
+#endif
+
 /* The winding number of a closed part about a point; a half where the point lies on a triangle, or as good as on it. */
 static double winding(const gn_mesh *mesh, const gni_part *part, const double point[4])
 {
@@ -53,26 +60,20 @@ static int only_lit_cast(const gn_mesh *mesh, const gni_part *part, const double
     return fabs(winding(mesh, part, light)) < 1e-9; /* far from all whole numbers but 0 */
 }
 
-/* 0 or 1 in each of eight bytes: the bits of a byte. */
-static uint64_t spread_bits(uint64_t byte)
-{
-    const uint64_t picked = (byte * 0x0101010101010101u) & 0x8040201008040201u;
-
-    return ((picked + 0x7f7f7f7f7f7f7f7fu) >> 7) & 0x0101010101010101u;
-}
-
-/* Bytes of a whole cluster: `one` where the bit is set. */
+/* Bytes of a whole cluster: `one` where the bit is set, else 0. */
 static void put_bytes(int8_t *out, uint64_t bits, uint32_t count, int8_t one)
 {
-    int8_t bytes[GNI_CLUSTER];
+    uint64_t words[8];
 
     for (int i = 0; i < 8; i++) {
-        const uint64_t eight = spread_bits(bits >> (8 * i) & 0xff) * (uint8_t)one;
+        const uint64_t picked = ((bits >> (8 * i) & 0xff) * 0x0101010101010101u) & PICK_BITS;
 
-        for (int k = 0; k < 8; k++) /* compilers store all at once where bytes lie so */
-            bytes[8 * i + k] = (int8_t)(uint8_t)(eight >> (8 * k));
+        words[i] = (((picked + 0x7f7f7f7f7f7f7f7fu) >> 7) & 0x0101010101010101u) * (uint8_t)one;
     }
-    memcpy(out, bytes, count);
+    if (count == GNI_CLUSTER)
+        memcpy(out, words, sizeof words); /* at once */
+    else
+        memcpy(out, words, count);
 }
 
 static uint32_t size_of(const gn_mesh *mesh, uint32_t cluster)
@@ -118,6 +119,7 @@ void gni_find_bits(const gn_mesh *mesh, gni_casting *c)
 {
     c->is_plain = 0;
     c->count = 0;
+    c->of[mesh->info.triangle_count] = GNI_UNLIKE;
     for (uint32_t cluster = 0; cluster < mesh->cluster_count; cluster++) {
         const int8_t *of = c->of + (size_t)cluster * GNI_CLUSTER;
         uint64_t bits = 0;
@@ -141,6 +143,7 @@ void gni_find_casting(const gn_mesh *mesh, const double light[4], gni_casting *c
     }
     c->is_plain = 1;
     c->count = 0;
+    c->of[mesh->info.triangle_count] = GNI_UNLIKE;
     for (uint32_t cluster = 0; cluster < mesh->cluster_count; cluster++) {
         put_bytes(c->of + (size_t)cluster * GNI_CLUSTER, c->bits[cluster], size_of(mesh, cluster), inward ? -1 : 1);
         c->count += gni_count_bits(c->bits[cluster]);

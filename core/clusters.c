@@ -24,11 +24,13 @@ static void fill_lanes(const gn_mesh *mesh, uint32_t index)
     const uint32_t first = index * GNI_CLUSTER;
 
     memset(c, 0, sizeof *c);
+    for (uint32_t i = 0; i < GNI_CLUSTER; i++)
+        c->planes[3][i] = 1e36f; /* of what is no triangle: in no doubt */
     for (uint32_t i = 0; i < GNI_CLUSTER && first + i < mesh->info.triangle_count; i++) {
         const double *plane = mesh->planes + 4 * (size_t)(first + i);
         const int shift = -exponent_of(plane);
-        /* bit 8 l + j of a word is lane l of vector j */
-        const uint32_t slot = (i & 7u) * 8u + (i >> 3);
+        /* bit 8 l + j of a word is lane l of vector 7 - j */
+        const uint32_t slot = (7u - i % 8u) * 8u + i / 8u;
 
         for (int k = 0; k < 4; k++)
             c->planes[k][slot] = (float)ldexp(plane[k], shift);
@@ -49,7 +51,7 @@ static void unit(double v[3])
 static void open_cone(gni_node *n, double cosine)
 {
     n->cosine = cosine > 1e-3 ? cosine : 0.0;
-    n->sine = sqrt(1.0 - n->cosine * n->cosine);
+    n->sine = sqrt(1.0 - n->cosine * n->cosine); /* of an open one 1: nothing is beyond its doubt */
 }
 
 static void make_leaf(const gn_mesh *mesh, uint32_t index)
@@ -156,7 +158,7 @@ static uint32_t find_borders(gn_mesh *mesh, uint8_t *borders)
         for (uint32_t i = 0; i < 3 * GNI_CLUSTER && 3 * (c * GNI_CLUSTER) + i < 3 * mesh->info.triangle_count; i++) {
             const uint32_t corner = 3 * (c * GNI_CLUSTER) + i, across = mesh->across[corner];
 
-            if (across != GNI_NOTHING && (across & GNI_SPECIAL || across / GNI_CLUSTER != c)) {
+            if (across / GNI_CLUSTER != c || across == mesh->info.triangle_count) {
                 if (borders)
                     borders[count] = (uint8_t)i;
                 count++;
@@ -169,14 +171,14 @@ static uint32_t find_borders(gn_mesh *mesh, uint8_t *borders)
 
 static void find_neighbours(gn_mesh *mesh)
 {
-    memset(mesh->across, 0xff, 3 * (size_t)mesh->info.triangle_count * sizeof *mesh->across); /* GNI_NOTHING */
+    for (size_t i = 0; i < 3 * (size_t)mesh->info.triangle_count; i++)
+        mesh->across[i] = mesh->info.triangle_count;
     for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
         const uint32_t first = mesh->edge_uses[e], end = mesh->edge_uses[e + 1];
         const int is_plain = end - first == 2 && (mesh->uses[first] ^ mesh->uses[first + 1]) & GNI_USE_DOWN;
 
-        for (uint32_t u = first; u < end; u++)
-            mesh->across[mesh->uses[u] & GNI_USE_CORNER] =
-                is_plain ? (mesh->uses[first + end - 1 - u] & GNI_USE_CORNER) / 3 : e | GNI_SPECIAL;
+        for (uint32_t u = first; u < end && is_plain; u++)
+            mesh->across[mesh->uses[u] & GNI_USE_CORNER] = (mesh->uses[first + end - 1 - u] & GNI_USE_CORNER) / 3;
     }
 }
 

@@ -25,11 +25,12 @@ static int side_of(const gn_mesh *mesh, const gni_node *n, const double light[4]
 {
     const double u[3] = {light[0] - n->centre[0] * light[3], light[1] - n->centre[1] * light[3],
                          light[2] - n->centre[2] * light[3]};
-    const double square = gni_dot(u, u), along = gni_dot(n->axis, u), distance = sqrt(square);
-    double sine, cosine, limit;
+    const double square = gni_dot(u, u), along = gni_dot(n->axis, u);
+    double distance, sine, cosine, limit;
 
-    if (n->cosine == 0.0)
+    if (!(along * along > n->sine * n->sine * square)) /* as a point it is within the cone's doubt already: often so */
         return 0;
+    distance = sqrt(square);
     if (light[3] == 0.0) {
         sine = 0.0;
         cosine = 1.0;
@@ -52,50 +53,71 @@ static int exact_side(const double plane[4], const double light[4])
     return (side > 0.0) - (side < 0.0);
 }
 
-#if defined(__GNUC__)
-/* One source for SSE, AVX and NEON: the compiler makes of eight lanes what there is. */
-typedef float floats __attribute__((vector_size(32)));
-typedef int32_t masks __attribute__((vector_size(32)));
-
-/* Bits of what is surely in front and surely behind. */
-static void rate(const gni_cluster *c, const float l[4], float bound, uint64_t *front, uint64_t *back)
-{
-    masks before = {0}, behind = {0};
-    uint64_t f = 0, b = 0;
-
-    for (int j = 0; j < 8; j++) {
-        floats x, y, z, d, s;
-        const int32_t bit = 1 << j;
-
-        memcpy(&x, c->planes[0] + 8 * j, sizeof x);
-        memcpy(&y, c->planes[1] + 8 * j, sizeof y);
-        memcpy(&z, c->planes[2] + 8 * j, sizeof z);
-        memcpy(&d, c->planes[3] + 8 * j, sizeof d);
-        s = x * l[0] + y * l[1] + z * l[2] + d * l[3];
-        before |= (masks)(s > bound) & bit;
-        behind |= (masks)(s < -bound) & bit;
-    }
-    for (int lane = 0; lane < 8; lane++) {
-        f |= (uint64_t)(uint32_t)before[lane] << (8 * lane);
-        b |= (uint64_t)(uint32_t)behind[lane] << (8 * lane);
-    }
-    *front = f;
-    *back = b;
-}
+/* One source for SSE, AVX2 and NEON: the compiler makes of a vector of LANES what there is. Elsewhere one by one. */
+#if defined(__GNUC__) && defined(__AVX2__)
+#define LANES 8
+#elif defined(__GNUC__)
+#define LANES 4
 #else
-static void rate(const gni_cluster *c, const float l[4], float bound, uint64_t *front, uint64_t *back)
-{
-    *front = *back = 0;
-    for (int slot = 0; slot < 64; slot++) {
-        const float s = c->planes[0][slot] * l[0] + c->planes[1][slot] * l[1] + c->planes[2][slot] * l[2] +
-                        c->planes[3][slot] * l[3];
-        const uint64_t bit = (uint64_t)1 << (8 * (slot % 8) + slot / 8);
-
-        *front |= s > bound ? bit : 0;
-        *back |= s < -bound ? bit : 0;
-    }
-}
+#define LANES 1
 #endif
+
+#if LANES > 1
+typedef float floats __attribute__((vector_size(4 * LANES)));
+typedef int32_t masks __attribute__((vector_size(4 * LANES)));
+#define ALL(x) ((floats){0} + (x))
+#else
+typedef float floats;
+typedef int32_t masks;
+#define ALL(x) (x)
+#endif
+
+/* -1 in each lane where the comparison holds, as a compiler's vectors have it. */
+#if LANES > 1
+#define HOLDS(comparison) ((masks)(comparison))
+#define MAGNITUDE(x)      ((floats)((masks)(x) & 0x7fffffff))
+#else
+#define HOLDS(comparison) (-(comparison))
+#define MAGNITUDE(x)      fabsf(x)
+#endif
+
+/* Eight times, without a loop. */
+#define RATE(j)                                                                                                        \
+    {                                                                                                                  \
+        floats x, y, z, d, s;                                                                                          \
+                                                                                                                       \
+        memcpy(&x, c->planes[0] + 8 * (j) + first, sizeof x);                                                          \
+        memcpy(&y, c->planes[1] + 8 * (j) + first, sizeof y);                                                          \
+        memcpy(&z, c->planes[2] + 8 * (j) + first, sizeof z);                                                          \
+        memcpy(&d, c->planes[3] + 8 * (j) + first, sizeof d);                                                          \
+        s = x * lx + y * ly + z * lz + d * lw;                                                                         \
+        bits = bits + bits - HOLDS(s > zero);                                                                          \
+        doubt |= HOLDS(MAGNITUDE(s) <= least);                                                                         \
+    }
+
+/* Bits of what is in front; 0 where some triangle's side is in doubt. Each vector shifts its lanes' bits up by one, so
+ * that the last one's are the lowest. */
+static int rate(const gni_cluster *c, const float l[4], float bound, uint64_t *front)
+{
+    const floats lx = ALL(l[0]), ly = ALL(l[1]), lz = ALL(l[2]), lw = ALL(l[3]), least = ALL(bound), zero = ALL(0.0f);
+    int32_t lanes[2][8];
+    uint64_t word = 0;
+    int32_t near = 0;
+
+    for (int first = 0; first < 8; first += LANES) {
+        masks bits = {0}, doubt = {0};
+
+        RATE(0) RATE(1) RATE(2) RATE(3) RATE(4) RATE(5) RATE(6) RATE(7)
+        memcpy(lanes[0] + first, &bits, sizeof bits);
+        memcpy(lanes[1] + first, &doubt, sizeof doubt);
+    }
+    for (int i = 0; i < 8; i++) {
+        word |= (uint64_t)(uint32_t)lanes[0][i] << (8 * i);
+        near |= lanes[1][i];
+    }
+    *front = word;
+    return !near;
+}
 
 static uint64_t mask_of(const gn_mesh *mesh, uint32_t cluster)
 {
@@ -104,23 +126,29 @@ static uint64_t mask_of(const gn_mesh *mesh, uint32_t cluster)
     return rest < GNI_CLUSTER ? ((uint64_t)1 << rest) - 1 : ~(uint64_t)0;
 }
 
-static void look(const gn_mesh *mesh, uint32_t cluster, const double light[4], const float l[4], double light_size,
-                 uint64_t *front, uint64_t *back)
+/* All that float leaves in doubt, or nothing of it, one by one. */
+static void look_closely(const gn_mesh *mesh, uint32_t cluster, const double light[4], uint64_t *front, uint64_t *back)
 {
-    const gni_cluster *c = &mesh->clusters[cluster];
-    const double bound = FLOAT_ERROR * (light_size + c->most * fabs(light[3])) + 1e-37;
-    uint64_t doubt;
-
     *front = *back = 0;
-    if (bound < MOST) /* else all is in doubt */
-        rate(c, l, (float)bound, front, back);
-    for (doubt = ~(*front | *back) & mask_of(mesh, cluster); doubt; doubt &= doubt - 1) {
-        const uint32_t i = gni_lowest_bit(doubt);
+    for (uint32_t i = 0; i < GNI_CLUSTER && cluster * GNI_CLUSTER + i < mesh->info.triangle_count; i++) {
         const int side = exact_side(mesh->planes + 4 * (size_t)(cluster * GNI_CLUSTER + i), light);
 
         *front |= (uint64_t)(side > 0) << i;
         *back |= (uint64_t)(side < 0) << i;
     }
+}
+
+static void look(const gn_mesh *mesh, uint32_t cluster, const double light[4], const float l[4], double light_size,
+                 uint64_t *front, uint64_t *back)
+{
+    const gni_cluster *c = &mesh->clusters[cluster];
+    const double bound = FLOAT_ERROR * (light_size + c->most * fabs(light[3])) + 1e-37;
+
+    if (bound < MOST && rate(c, l, (float)bound, front)) {
+        *back = ~*front;
+        return;
+    }
+    look_closely(mesh, cluster, light, front, back);
 }
 
 /* What no float holds is not used: the bound is beyond MOST then. */
@@ -144,6 +172,11 @@ static void visit(query *q, uint32_t level, uint32_t index)
     const gn_mesh *mesh = q->mesh;
     const int side = side_of(mesh, &mesh->nodes[mesh->levels[level] + index], q->light);
 
+    if (side != 0 && level == 0) {
+        q->front[index] = side > 0 ? ~(uint64_t)0 : 0;
+        q->back[index] = ~q->front[index];
+        return;
+    }
     if (side != 0) {
         const uint32_t first = index << (3 * level), span = 1u << (3 * level);
         const uint32_t end = mesh->cluster_count - first < span ? mesh->cluster_count : first + span;

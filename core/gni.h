@@ -30,7 +30,7 @@ typedef struct gni_part {
 
 /* facing.c and casting.c: of the triangles of a mesh, in its own order. */
 typedef struct gni_casting {
-    int8_t *of;            /* [triangle_count] 1, -1, 0: as gn_casting() has it */
+    int8_t *of;            /* [triangle_count + 1] 1, -1, 0: as gn_casting() has it; then GNI_UNLIKE */
     uint64_t *bits;        /* [cluster_count] those that cast */
     uint64_t *spare;       /* [cluster_count] of backs, while facing is looked at */
     int is_plain;          /* all that cast are turned alike, and of closed parts: clusters that cast whole have no
@@ -41,12 +41,11 @@ typedef struct gni_casting {
 
 /* clusters.c */
 #define GNI_CLUSTER 64u         /* triangles: a bit each in a word */
-#define GNI_SPECIAL 0x80000000u /* in gn_mesh.across: an edge of that number, which not two alone share as neighbours do */
-#define GNI_NOTHING 0xffffffffu /* no edge: of a degenerate triangle */
+#define GNI_UNLIKE  2   /* the casting of what is no triangle: like none */
 #define GNI_MOST_LEVELS 9       /* of eights: GN_MAX_TRIANGLES in clusters */
 
 typedef struct gni_cluster {
-    float planes[4][64]; /* of the triangle of bit 8 l + j in slot 8 j + l; normals' components below 1 */
+    float planes[4][64]; /* of the triangle of bit 8 l + j in slot 8 (7 - j) + l; normals' components below 1 */
     double most;         /* of the last row */
 } gni_cluster;
 
@@ -69,7 +68,8 @@ struct gn_mesh {
     uint32_t *uses;
     uint32_t
         *edge_of; /* [triangle_count][3]: the edge from each corner to the next; GNI_NONE of degenerate triangles */
-    uint32_t *across; /* [triangle_count][3]: the triangle beyond that edge, GNI_SPECIAL with the edge, GNI_NOTHING */
+    uint32_t *across; /* [triangle_count][3]: the triangle beyond that edge, if the two alone share it as neighbours do;
+                         else triangle_count */
     gni_cluster *clusters;
     uint32_t cluster_count;
     gni_node *nodes; /* of clusters, then of eights of them, and so on */

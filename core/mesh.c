@@ -110,7 +110,7 @@ static gn_result make_scratch(gn_mesh *mesh)
 {
     gni_casting *c = &mesh->scratch;
 
-    c->of = gni_alloc(mesh->context, mesh->info.triangle_count, 1);
+    c->of = gni_alloc(mesh->context, (size_t)mesh->info.triangle_count + 1, 1);
     c->bits = gni_alloc(mesh->context, mesh->cluster_count, sizeof *c->bits);
     c->spare = gni_alloc(mesh->context, mesh->cluster_count, sizeof *c->spare);
     if (!c->of || !c->bits || !c->spare)

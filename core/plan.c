@@ -34,7 +34,7 @@ static void cut_casting(arena *a, gni_casting *c, size_t triangles)
 {
     const size_t clusters = (triangles + GNI_CLUSTER - 1) / GNI_CLUSTER;
 
-    c->of = cut(a, triangles, 1);
+    c->of = cut(a, triangles + 1, 1);
     c->bits = cut(a, clusters, sizeof *c->bits);
     c->spare = cut(a, clusters, sizeof *c->spare);
 }

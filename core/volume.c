@@ -33,24 +33,25 @@ typedef struct side_maker {
     int converging;
 } side_maker;
 
-/* Sides over a corner's edge; the chain runs along it, or against it, so many times. */
-static uint16_t *put_side(const side_maker *m, uint32_t corner, int32_t weight, uint16_t *out)
+/* A side over an edge along which the cap runs from a to b: it runs from b to a. */
+static inline uint16_t *put_side(int converging, uint16_t a, uint16_t b, uint16_t *out)
 {
-    const uint32_t from = m->mesh->corners[corner], to = m->mesh->corners[gni_next_corner(corner)];
-    const uint32_t a = weight > 0 ? from : to, b = weight > 0 ? to : from;
-
-    for (int32_t i = weight < 0 ? -weight : weight; i > 0; i--) {
-        out = put(out, b, a, a + 1); /* the cap runs a to b, so the side b to a */
-        if (!m->converging)
-            out = put(out, b, a + 1, b + 1);
-    }
-    return out;
+    out[0] = b;
+    out[1] = a;
+    out[2] = (uint16_t)(a + 1u);
+    if (converging)
+        return out + 3;
+    out[3] = b;
+    out[4] = (uint16_t)(a + 1u);
+    out[5] = (uint16_t)(b + 1u);
+    return out + 6;
 }
 
-/* An edge whose triangles are not two neighbours: by its first caster. */
-static uint16_t *put_special(const side_maker *m, uint32_t corner, uint32_t edge, uint16_t *out)
+/* An edge whose triangles are not two neighbours: its first caster draws it, as often as the chain runs along it. */
+static uint16_t *put_special(const side_maker *m, uint32_t corner, uint16_t from, uint16_t to, uint16_t *out)
 {
     const gn_mesh *mesh = m->mesh;
+    const uint32_t edge = mesh->edge_of[corner];
     int32_t weight;
 
     if (gni_first_caster(mesh, edge, m->casting) != corner)
@@ -59,23 +60,36 @@ static uint16_t *put_special(const side_maker *m, uint32_t corner, uint32_t edge
     for (uint32_t u = mesh->edge_uses[edge]; u < mesh->edge_uses[edge + 1]; u++)
         if ((mesh->uses[u] & GNI_USE_CORNER) == corner && mesh->uses[u] & GNI_USE_DOWN)
             weight = -weight;
-    return put_side(m, corner, weight, out);
+    for (; weight > 0; weight--)
+        out = put_side(m->converging, from, to, out);
+    for (; weight < 0; weight++)
+        out = put_side(m->converging, to, from, out);
+    return out;
 }
 
-/* Of a casting triangle. */
-static inline uint16_t *look_across(const side_maker *m, uint32_t triangle, uint32_t corner, uint16_t *out)
+/* Where what lies across casts too, but turned unlike, or is not one triangle. */
+static uint16_t *cross_rarely(const side_maker *m, uint32_t corner, uint32_t next, uint16_t *out)
 {
+    const uint16_t from = m->mesh->corners[corner], to = m->mesh->corners[next];
     const uint32_t other = m->mesh->across[corner];
-    const int8_t own = m->casting[triangle];
+    const int is_up = m->casting[corner / 3] > 0;
 
-    if (other < GNI_SPECIAL) {
-        if (m->casting[other] == own)
-            return out;
-        if (m->casting[other] == 0)
-            return put_side(m, corner, own, out);
-        return triangle < other ? put_side(m, corner, 2 * own, out) : out; /* turned unlike: twice, by one of them */
-    }
-    return other == GNI_NOTHING ? out : put_special(m, corner, other & ~GNI_SPECIAL, out);
+    if (m->casting[other] == GNI_UNLIKE)
+        return put_special(m, corner, from, to, out);
+    for (int i = 0; i < 2 && corner / 3 < other; i++) /* twice, by one of the two */
+        out = put_side(m->converging, is_up ? from : to, is_up ? to : from, out);
+    return out;
+}
+
+/* The edge of a casting triangle from one corner to the next, where what lies across is cast unlike. */
+static inline uint16_t *cross_over(const side_maker *m, int8_t own, int8_t across, uint32_t corner, uint32_t next,
+                                   uint16_t *out)
+{
+    const uint16_t *corners = m->mesh->corners;
+
+    if (across != 0)
+        return cross_rarely(m, corner, next, out);
+    return put_side(m->converging, corners[own > 0 ? corner : next], corners[own > 0 ? next : corner], out);
 }
 
 static uint32_t end_of(const gn_chunk *chunk)
@@ -83,10 +97,47 @@ static uint32_t end_of(const gn_chunk *chunk)
     return (chunk->first_triangle + chunk->triangle_count + GNI_CLUSTER - 1) / GNI_CLUSTER;
 }
 
-static int is_whole(const gn_mesh *mesh, const gni_casting *c, uint32_t cluster)
+static int is_whole(const gni_casting *c, uint32_t cluster)
 {
-    (void)mesh;
     return c->is_plain && c->bits[cluster] == ~(uint64_t)0;
+}
+
+/* Of a cluster that casts whole. */
+static uint16_t *walk_border(const side_maker *m, uint32_t cluster, uint16_t *out)
+{
+    const gn_mesh *mesh = m->mesh;
+
+    for (uint32_t b = mesh->border_starts[cluster]; b < mesh->border_starts[cluster + 1]; b++) {
+        const uint32_t corner = 3u * GNI_CLUSTER * cluster + mesh->borders[b];
+
+        const int8_t own = m->casting[corner / 3], across = m->casting[mesh->across[corner]];
+
+        if (across != own)
+            out = cross_over(m, own, across, corner, gni_next_corner(corner), out);
+    }
+    return out;
+}
+
+/* Of the bits that cast. */
+static uint16_t *walk_bits(const side_maker *m, uint32_t cluster, uint64_t bits, uint16_t *out)
+{
+    const uint32_t first = cluster * GNI_CLUSTER;
+    const uint32_t *across = m->mesh->across + 3 * (size_t)first;
+    const int8_t *casting = m->casting;
+
+    for (; bits; bits &= bits - 1) {
+        const size_t i = gni_lowest_bit(bits);
+        const uint32_t *a = across + 3 * i, corner = 3 * (first + (uint32_t)i);
+        const int8_t own = casting[first + i];
+
+        if (casting[a[0]] != own)
+            out = cross_over(m, own, casting[a[0]], corner, corner + 1, out);
+        if (casting[a[1]] != own)
+            out = cross_over(m, own, casting[a[1]], corner + 1, corner + 2, out);
+        if (casting[a[2]] != own)
+            out = cross_over(m, own, casting[a[2]], corner + 2, corner, out);
+    }
+    return out;
 }
 
 uint32_t gni_put_sides(const gn_mesh *mesh, uint32_t chunk_index, const gni_casting *c, int converging, uint16_t *out)
@@ -95,22 +146,8 @@ uint32_t gni_put_sides(const gn_mesh *mesh, uint32_t chunk_index, const gni_cast
     const side_maker m = {mesh, c->of, converging};
     uint16_t *at = out;
 
-    for (uint32_t cluster = chunk->first_triangle / GNI_CLUSTER; cluster < end_of(chunk); cluster++) {
-        const uint32_t first = cluster * GNI_CLUSTER;
-
-        if (is_whole(mesh, c, cluster)) {
-            for (uint32_t b = mesh->border_starts[cluster]; b < mesh->border_starts[cluster + 1]; b++)
-                at = look_across(&m, first + mesh->borders[b] / 3u, 3u * first + mesh->borders[b], at);
-            continue;
-        }
-        for (uint64_t bits = c->bits[cluster]; bits; bits &= bits - 1) {
-            const uint32_t t = first + gni_lowest_bit(bits);
-
-            at = look_across(&m, t, 3 * t, at);
-            at = look_across(&m, t, 3 * t + 1, at);
-            at = look_across(&m, t, 3 * t + 2, at);
-        }
-    }
+    for (uint32_t cluster = chunk->first_triangle / GNI_CLUSTER; cluster < end_of(chunk); cluster++)
+        at = is_whole(c, cluster) ? walk_border(&m, cluster, at) : walk_bits(&m, cluster, c->bits[cluster], at);
     return (uint32_t)(at - out);
 }
 
@@ -132,12 +169,32 @@ uint32_t gni_put_dark_cap(const gn_mesh *mesh, uint32_t chunk_index, const gni_c
 
     for (uint32_t cluster = chunk->first_triangle / GNI_CLUSTER; cluster < end_of(chunk); cluster++)
         for (uint64_t bits = c->bits[cluster]; bits; bits &= bits - 1) {
-            const uint32_t t = cluster * GNI_CLUSTER + gni_lowest_bit(bits);
-            const uint16_t *v = mesh->corners + 3 * (size_t)t;
+            const uint32_t i = gni_lowest_bit(bits);
+            const uint16_t *v = mesh->corners + 3 * (size_t)(cluster * GNI_CLUSTER) + 3 * i;
+            const int turned = c->of[cluster * GNI_CLUSTER + i] < 0;
 
-            at = c->of[t] > 0 ? put(at, v[0] + 1u, v[2] + 1u, v[1] + 1u) : put(at, v[0] + 1u, v[1] + 1u, v[2] + 1u);
+            at = put(at, v[0] + 1u, v[2 - turned] + 1u, v[1 + turned] + 1u);
         }
     return (uint32_t)(at - out);
+}
+
+/* Four indices are copied for three: the one too many is written over, or belongs to the slack. */
+static uint16_t *copy_corners(const uint16_t *corners, uint64_t bits, uint16_t *out)
+{
+    for (; bits; bits &= bits - 1, out += 3)
+        memcpy(out, corners + 3 * gni_lowest_bit(bits), 4 * sizeof *out);
+    return out;
+}
+
+static uint16_t *copy_turned(const uint16_t *corners, const gni_casting *c, uint32_t cluster, int8_t turn, uint16_t *out)
+{
+    for (uint64_t bits = c->bits[cluster]; bits; bits &= bits - 1) {
+        const uint32_t i = gni_lowest_bit(bits);
+
+        memcpy(out, corners + 3 * i, 4 * sizeof *out);
+        out += c->of[cluster * GNI_CLUSTER + i] == turn ? 3 : 0;
+    }
+    return out;
 }
 
 uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk_index, const gni_casting *c, int8_t turn, uint16_t *out)
@@ -147,22 +204,16 @@ uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk_index, const gni_
 
     for (uint32_t cluster = chunk->first_triangle / GNI_CLUSTER; cluster < end_of(chunk); cluster++) {
         const uint32_t first = cluster * GNI_CLUSTER;
+        const uint16_t *corners = mesh->corners + 3 * (size_t)first;
 
         if (c->is_plain && (c->bits[cluster] == 0 || c->of[first + gni_lowest_bit(c->bits[cluster])] != turn))
             continue;
-        if (is_whole(mesh, c, cluster)) {
-            memcpy(at, mesh->corners + 3 * (size_t)first, 3 * GNI_CLUSTER * sizeof *at);
+        if (is_whole(c, cluster)) {
+            memcpy(at, corners, 3 * GNI_CLUSTER * sizeof *at);
             at += 3 * GNI_CLUSTER;
             continue;
         }
-        for (uint64_t bits = c->bits[cluster]; bits; bits &= bits - 1) {
-            const uint32_t t = first + gni_lowest_bit(bits);
-
-            if (c->of[t] != turn)
-                continue;
-            memcpy(at, mesh->corners + 3 * (size_t)t, 4 * sizeof *at); /* one too many, which is written over */
-            at += 3;
-        }
+        at = c->is_plain ? copy_corners(corners, c->bits[cluster], at) : copy_turned(corners, c, cluster, turn, at);
     }
     return (uint32_t)(at - out);
 }
