@@ -9,13 +9,15 @@
 #include <math.h>
 #include <string.h>
 
-/* A plane by a power of two: its normal's greatest component from a half to 1. */
-static int exponent_of(const double plane[4])
+/* fmax() and fmin() are calls. */
+static double greatest(double a, double b)
 {
-    int exponent;
+    return a > b ? a : b;
+}
 
-    frexp(fmax(fabs(plane[0]), fmax(fabs(plane[1]), fabs(plane[2]))), &exponent);
-    return exponent;
+static double least(double a, double b)
+{
+    return a < b ? a : b;
 }
 
 static void fill_lanes(const gn_mesh *mesh, uint32_t index)
@@ -28,12 +30,13 @@ static void fill_lanes(const gn_mesh *mesh, uint32_t index)
         c->planes[3][i] = 1e36f; /* of what is no triangle: in no doubt */
     for (uint32_t i = 0; i < GNI_CLUSTER && first + i < mesh->info.triangle_count; i++) {
         const double *plane = mesh->planes + 4 * (size_t)(first + i);
-        const int shift = -exponent_of(plane);
+        const double most = greatest(fabs(plane[0]), greatest(fabs(plane[1]), fabs(plane[2])));
+        const double scale = most > 0.0 ? 1.0 / most : 0.0; /* one more rounding, of double: nothing to float's */
         /* bit 8 l + j of a word is lane l of vector 7 - j */
         const uint32_t slot = (7u - i % 8u) * 8u + i / 8u;
 
         for (int k = 0; k < 4; k++)
-            c->planes[k][slot] = (float)ldexp(plane[k], shift);
+            c->planes[k][slot] = (float)(plane[k] * scale);
         if (!(fabs((double)c->planes[3][slot]) <= c->most))
             c->most = fabs((double)c->planes[3][slot]);
     }
@@ -41,10 +44,10 @@ static void fill_lanes(const gn_mesh *mesh, uint32_t index)
 
 static void unit(double v[3])
 {
-    const double length = sqrt(gni_dot(v, v));
+    const double square = v[0] * v[0] + v[1] * v[1] + v[2] * v[2], scale = square > 0.0 ? 1.0 / sqrt(square) : 0.0;
 
     for (int k = 0; k < 3; k++)
-        v[k] = length > 0.0 ? v[k] / length : 0.0;
+        v[k] *= scale;
 }
 
 /* A cone of half angle 90 degrees or more says nothing. */
@@ -58,50 +61,45 @@ static void make_leaf(const gn_mesh *mesh, uint32_t index)
 {
     gni_node *n = &mesh->nodes[index];
     const uint32_t first = index * GNI_CLUSTER, rest = mesh->info.triangle_count - first;
-    const uint32_t end = first + (rest < GNI_CLUSTER ? rest : GNI_CLUSTER);
-    double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY}, cosine = 1.0, square = 0.0;
+    const uint32_t count = rest < GNI_CLUSTER ? rest : GNI_CLUSTER;
+    const uint32_t *corners = mesh->triangles + 3 * (size_t)first;
+    double normals[GNI_CLUSTER][3], cosine = 1.0, square = 0.0;
+    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
 
     memset(n, 0, sizeof *n);
-    for (uint32_t t = first; t < end; t++) {
-        double normal[3];
-
-        memcpy(normal, mesh->planes + 4 * (size_t)t, sizeof normal);
-        unit(normal);
-        for (int k = 0; k < 3; k++) {
-            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
-
-            n->axis[k] += normal[k];
-            for (int axis = 0; axis < 3; axis++) {
-                low[axis] = fmin(low[axis], (double)p[axis]);
-                high[axis] = fmax(high[axis], (double)p[axis]);
-            }
-        }
+    for (uint32_t i = 0; i < count; i++) {
+        memcpy(normals[i], mesh->planes + 4 * (size_t)(first + i), sizeof normals[i]);
+        unit(normals[i]); /* of no area: 0, and the cone will be open */
+        for (int k = 0; k < 3; k++)
+            n->axis[k] += normals[i][k];
     }
     unit(n->axis);
-    for (int k = 0; k < 3; k++)
-        n->centre[k] = 0.5 * low[k] + 0.5 * high[k];
-    for (uint32_t t = first; t < end; t++) {
-        double normal[3];
+    for (uint32_t i = 0; i < count; i++)
+        cosine = least(cosine, gni_dot(normals[i], n->axis));
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        const float *p = mesh->positions + 3 * (size_t)corners[i];
 
-        memcpy(normal, mesh->planes + 4 * (size_t)t, sizeof normal);
-        unit(normal); /* of no area: 0, and the cone is open */
-        cosine = fmin(cosine, gni_dot(normal, n->axis));
-        for (int k = 0; k < 3; k++) {
-            const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
-            const double d[3] = {(double)p[0] - n->centre[0], (double)p[1] - n->centre[1], (double)p[2] - n->centre[2]};
-
-            square = fmax(square, gni_dot(d, d));
+        for (int axis = 0; axis < 3; axis++) {
+            low[axis] = p[axis] < low[axis] ? p[axis] : low[axis];
+            high[axis] = p[axis] > high[axis] ? p[axis] : high[axis];
         }
+    }
+    for (int k = 0; k < 3; k++)
+        n->centre[k] = 0.5 * (double)low[k] + 0.5 * (double)high[k];
+    for (uint32_t i = 0; i < 3 * count; i++) {
+        const float *p = mesh->positions + 3 * (size_t)corners[i];
+        const double x = (double)p[0] - n->centre[0], y = (double)p[1] - n->centre[1], z = (double)p[2] - n->centre[2];
+
+        square = greatest(square, x * x + y * y + z * z);
     }
     n->radius = sqrt(square);
     open_cone(n, cosine);
 }
 
-static void make_inner(const gn_mesh *mesh, gni_node *n, const gni_node *children, uint32_t count)
+static void make_inner(gni_node *n, const gni_node *children, uint32_t count)
 {
     double cosine = 1.0, low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
 
-    (void)mesh;
     memset(n, 0, sizeof *n);
     for (uint32_t i = 0; i < count; i++)
         for (int k = 0; k < 3; k++) {
@@ -140,7 +138,7 @@ static void make_tree(gn_mesh *mesh)
         const uint32_t next = level_first + level_count, count = (level_count + 7u) / 8u;
 
         for (uint32_t i = 0; i < count; i++)
-            make_inner(mesh, &mesh->nodes[next + i], &mesh->nodes[level_first + 8u * i],
+            make_inner(&mesh->nodes[next + i], &mesh->nodes[level_first + 8u * i],
                        level_count - 8u * i < 8u ? level_count - 8u * i : 8u);
         mesh->levels[mesh->level_count++] = next;
         level_first = next;
@@ -148,38 +146,26 @@ static void make_tree(gn_mesh *mesh)
     }
 }
 
-/* What lies across each corner's edge, and which corners are on a cluster's border. */
+/* Which corners are on a cluster's border; how many in all. */
 static uint32_t find_borders(gn_mesh *mesh, uint8_t *borders)
 {
+    const uint32_t triangles = mesh->info.triangle_count;
     uint32_t count = 0;
 
     for (uint32_t c = 0; c < mesh->cluster_count; c++) {
-        mesh->border_starts[c] = count;
-        for (uint32_t i = 0; i < 3 * GNI_CLUSTER && 3 * (c * GNI_CLUSTER) + i < 3 * mesh->info.triangle_count; i++) {
-            const uint32_t corner = 3 * (c * GNI_CLUSTER) + i, across = mesh->across[corner];
+        const uint32_t first = c * GNI_CLUSTER, rest = triangles - first;
+        const uint32_t *across = mesh->across + 3 * (size_t)first;
 
-            if (across / GNI_CLUSTER != c || across == mesh->info.triangle_count) {
+        mesh->border_starts[c] = count;
+        for (uint32_t i = 0; i < 3 * (rest < GNI_CLUSTER ? rest : GNI_CLUSTER); i++)
+            if (across[i] - first >= GNI_CLUSTER || across[i] == triangles) {
                 if (borders)
                     borders[count] = (uint8_t)i;
                 count++;
             }
-        }
     }
     mesh->border_starts[mesh->cluster_count] = count;
     return count;
-}
-
-static void find_neighbours(gn_mesh *mesh)
-{
-    for (size_t i = 0; i < 3 * (size_t)mesh->info.triangle_count; i++)
-        mesh->across[i] = mesh->info.triangle_count;
-    for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
-        const uint32_t first = mesh->edge_uses[e], end = mesh->edge_uses[e + 1];
-        const int is_plain = end - first == 2 && (mesh->uses[first] ^ mesh->uses[first + 1]) & GNI_USE_DOWN;
-
-        for (uint32_t u = first; u < end && is_plain; u++)
-            mesh->across[mesh->uses[u] & GNI_USE_CORNER] = (mesh->uses[first + end - 1 - u] & GNI_USE_CORNER) / 3;
-    }
 }
 
 gn_result gni_make_clusters(gn_mesh *mesh)
@@ -191,11 +177,8 @@ gn_result gni_make_clusters(gn_mesh *mesh)
     mesh->clusters = gni_alloc(context, count, sizeof *mesh->clusters);
     mesh->nodes = gni_alloc(context, (size_t)count + count / 7 + 16, sizeof *mesh->nodes);
     mesh->border_starts = gni_alloc(context, (size_t)count + 1, sizeof *mesh->border_starts);
-    mesh->across = gni_alloc(context, mesh->info.triangle_count, 3 * sizeof *mesh->across);
-    if (mesh->clusters && mesh->nodes && mesh->border_starts && mesh->across) {
-        find_neighbours(mesh);
+    if (mesh->clusters && mesh->nodes && mesh->border_starts)
         mesh->borders = gni_alloc(context, find_borders(mesh, NULL), 1);
-    }
     if (!mesh->borders)
         return gn_fail(context, GN_E_MEMORY, "mesh: no memory for %lu clusters", (unsigned long)count);
     find_borders(mesh, mesh->borders);

@@ -6,17 +6,26 @@
 
 #include <string.h>
 
-typedef struct use {
-    uint32_t high, code; /* the higher vertex; GNI_USE_* */
-} use;
+/* A use in a bucket: the higher vertex, the corner, and whether it runs down, as one number, so that those of one edge
+ * stand together in order of their corners. */
+typedef uint64_t use;
 
-static int is_degenerate(const uint32_t t[3])
+static inline use make_use(uint32_t high, uint32_t corner, int is_down)
 {
-    return t[0] == t[1] || t[1] == t[2] || t[2] == t[0];
+    return (uint64_t)high << 32 | (uint64_t)corner << 1 | (uint64_t)is_down;
 }
 
-/* Shell's sort: buckets are mostly six or so long, and a fan's hub must not cost a square. Ties keep no order, so
- * the code decides them. */
+static inline uint32_t high_of(use u)
+{
+    return (uint32_t)(u >> 32);
+}
+
+static inline uint32_t code_of(use u)
+{
+    return (uint32_t)(u & 0xffffffffu) >> 1 | (u & 1 ? GNI_USE_DOWN : 0);
+}
+
+/* Shell's sort: buckets are mostly six or so long, and a fan's hub must not cost a square. */
 static void sort_uses(use *u, size_t count)
 {
     size_t gap = 1;
@@ -28,45 +37,41 @@ static void sort_uses(use *u, size_t count)
             const use x = u[i];
             size_t j = i;
 
-            for (; j >= gap &&
-                   (u[j - gap].high > x.high ||
-                    (u[j - gap].high == x.high && (u[j - gap].code & GNI_USE_CORNER) > (x.code & GNI_USE_CORNER)));
-                 j -= gap)
+            for (; j >= gap && u[j - gap] > x; j -= gap)
                 u[j] = u[j - gap];
             u[j] = x;
         }
 }
 
-/* starts: [vertex_count + 1]; sorted: [3 * triangle_count]. Returns how many uses there are. */
-static uint32_t bucket_uses(const gn_mesh *mesh, uint32_t *starts, use *sorted)
+/* starts: [vertex_count + 1], all 0; on return where each bucket ends. sorted: [3 * triangle_count]. */
+static void bucket_uses(const gn_mesh *mesh, uint32_t *starts, use *sorted)
 {
     const gn_mesh_info *info = &mesh->info;
     uint32_t total = 0;
 
-    memset(starts, 0, ((size_t)info->vertex_count + 1) * sizeof *starts);
-    for (int pass = 0; pass < 2; pass++) {
-        for (uint32_t t = 0; t < info->triangle_count; t++) {
-            const uint32_t *corner = mesh->triangles + 3 * (size_t)t;
+    for (uint32_t t = 0; t < info->triangle_count; t++) {
+        const uint32_t *c = mesh->triangles + 3 * (size_t)t, a = c[0], b = c[1], d = c[2];
 
-            if (is_degenerate(corner))
-                continue;
-            for (uint32_t k = 0; k < 3; k++) {
-                const uint32_t a = corner[k], b = corner[(k + 1) % 3];
-                const uint32_t low = a < b ? a : b;
+        if (a == b || b == d || d == a)
+            continue;
+        starts[a < b ? a : b]++;
+        starts[b < d ? b : d]++;
+        starts[d < a ? d : a]++;
+    }
+    for (uint32_t v = 0; v <= info->vertex_count; v++) {
+        const uint32_t n = starts[v];
 
-                if (pass == 0)
-                    starts[low]++;
-                else
-                    sorted[starts[low]++] = (use){a < b ? b : a, (3 * t + k) | (a < b ? 0 : GNI_USE_DOWN)};
-            }
-        }
-        if (pass == 0)
-            for (uint32_t v = 0; v <= info->vertex_count; v++) {
-                const uint32_t n = starts[v];
+        starts[v] = total;
+        total += n;
+    }
+    for (uint32_t t = 0; t < info->triangle_count; t++) {
+        const uint32_t *c = mesh->triangles + 3 * (size_t)t, a = c[0], b = c[1], d = c[2];
 
-                starts[v] = total;
-                total += n;
-            }
+        if (a == b || b == d || d == a)
+            continue;
+        sorted[starts[a < b ? a : b]++] = make_use(a < b ? b : a, 3 * t, a > b);
+        sorted[starts[b < d ? b : d]++] = make_use(b < d ? d : b, 3 * t + 1, b > d);
+        sorted[starts[d < a ? d : a]++] = make_use(d < a ? a : d, 3 * t + 2, d > a);
     }
     /* filling moved each start to its bucket's end, which is the next one's start */
     for (uint32_t v = 0; v < info->vertex_count; v++) {
@@ -74,7 +79,30 @@ static uint32_t bucket_uses(const gn_mesh *mesh, uint32_t *starts, use *sorted)
 
         sort_uses(sorted + first, starts[v] - first);
     }
-    return total;
+}
+
+/* Edge by edge from sorted buckets, which end at `ends`; what lies across too. Returns the number of edges. */
+static uint32_t write_edges(gn_mesh *mesh, const use *sorted, const uint32_t *ends)
+{
+    uint32_t edges = 0, total = 0;
+
+    for (uint32_t v = 0, u = 0, end; v < mesh->info.vertex_count; total = ends[v], v++)
+        for (; u < ends[v]; u = end, edges++) {
+            mesh->edge_uses[edges] = u;
+            for (end = u; end < ends[v] && high_of(sorted[end]) == high_of(sorted[u]); end++) {
+                mesh->uses[end] = code_of(sorted[end]);
+                mesh->edge_of[(sorted[end] & 0xffffffffu) >> 1] = edges;
+            }
+            if (end - u == 2 && (sorted[u] ^ sorted[u + 1]) & 1) {
+                const uint32_t a = (uint32_t)(sorted[u] & 0xffffffffu) >> 1,
+                               b = (uint32_t)(sorted[u + 1] & 0xffffffffu) >> 1;
+
+                mesh->across[a] = b / 3;
+                mesh->across[b] = a / 3;
+            }
+        }
+    mesh->edge_uses[edges] = total;
+    return edges;
 }
 
 gn_result gni_make_edges(gn_mesh *mesh)
@@ -84,31 +112,25 @@ gn_result gni_make_edges(gn_mesh *mesh)
     const size_t most = 3 * (size_t)info->triangle_count;
     uint32_t *starts = gni_alloc(context, (size_t)info->vertex_count + 1, sizeof *starts);
     use *sorted = gni_alloc(context, most, sizeof *sorted);
-    uint32_t total, edges = 0;
+    int failed;
 
     mesh->uses = gni_alloc(context, most, sizeof *mesh->uses);
     mesh->edge_uses = gni_alloc(context, most + 1, sizeof *mesh->edge_uses);
     mesh->edge_of = gni_alloc(context, most, sizeof *mesh->edge_of);
-    if (!starts || !sorted || !mesh->uses || !mesh->edge_uses || !mesh->edge_of) {
-        gni_free(context, starts);
-        gni_free(context, sorted);
-        return gn_fail(context, GN_E_MEMORY, "mesh: no memory for the edges of %lu triangles",
-                       (unsigned long)info->triangle_count);
+    mesh->across = gni_alloc(context, most, sizeof *mesh->across);
+    failed = !starts || !sorted || !mesh->uses || !mesh->edge_uses || !mesh->edge_of || !mesh->across;
+    if (!failed) {
+        memset(starts, 0, ((size_t)info->vertex_count + 1) * sizeof *starts);
+        memset(mesh->edge_of, 0xff, most * sizeof *mesh->edge_of);
+        for (size_t i = 0; i < most; i++)
+            mesh->across[i] = info->triangle_count;
+        bucket_uses(mesh, starts, sorted);
+        mesh->info.edge_count = write_edges(mesh, sorted, starts);
     }
-    total = bucket_uses(mesh, starts, sorted);
-    for (uint32_t v = 0, u = 0; v < info->vertex_count; v++)
-        for (const uint32_t first = u; u < starts[v]; u++) {
-            if (u == first || sorted[u].high != sorted[u - 1].high)
-                mesh->edge_uses[edges++] = u;
-            mesh->uses[u] = sorted[u].code;
-        }
-    mesh->edge_uses[edges] = total;
-    memset(mesh->edge_of, 0xff, most * sizeof *mesh->edge_of);
-    for (uint32_t e = 0; e < edges; e++)
-        for (uint32_t u = mesh->edge_uses[e]; u < mesh->edge_uses[e + 1]; u++)
-            mesh->edge_of[mesh->uses[u] & GNI_USE_CORNER] = e;
-    mesh->info.edge_count = edges;
     gni_free(context, starts);
     gni_free(context, sorted);
+    if (failed)
+        return gn_fail(context, GN_E_MEMORY, "mesh: no memory for the edges of %lu triangles",
+                       (unsigned long)info->triangle_count);
     return GN_OK;
 }

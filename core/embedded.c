@@ -18,6 +18,7 @@
 /* Signs are trusted beyond this share of the largest term: coordinates are floats, so that a double product of three
  * differences errs by some 2^-51 of it. */
 #define DOUBT 1e-14
+#define SURE  1e-9 /* the same for a point seen from a triangle's plane: far more than rounding */
 
 typedef struct node {
     float box[6];          /* min, max */
@@ -284,12 +285,62 @@ static int nodes_apart(tree *t, uint32_t a, uint32_t b)
     return nodes_apart(t, a + 1, b) && nodes_apart(t, na->right, b);
 }
 
+/* A part every triangle of which a point sees from the same side, and in whose sight some direction is covered once, is
+ * seen in every direction once: so it passes nowhere through itself. (Its projection on a ball around the point covers that
+ * everywhere alike.) Cheap, and true of much that is modelled; for what is not it says nothing. */
+static int is_star(const gn_mesh *mesh, const gni_part *part)
+{
+    static const double way[3] = {0.5773, 0.4637, 0.6719}; /* across no grid */
+    const uint32_t *list = mesh->part_triangles + part->first_triangle;
+    double middle[3], square = 0.0; /* no less than a quarter of any two sides' product */
+    uint32_t covered = 0;
+    int side = 0;
+
+    for (int axis = 0; axis < 3; axis++) {
+        const double half = 0.5 * (double)part->box_max[axis] - 0.5 * (double)part->box_min[axis];
+
+        middle[axis] = 0.5 * (double)part->box_min[axis] + 0.5 * (double)part->box_max[axis];
+        square += half * half;
+    }
+    for (uint32_t i = 0; i < part->triangle_count; i++) {
+        const uint32_t *c = mesh->triangles + 3 * (size_t)list[i];
+        const double *plane = mesh->planes + 4 * (size_t)list[i];
+        const double of_middle = gni_dot(plane, middle) + plane[3];
+        const double doubt = SURE * (fabs(plane[0] * middle[0]) + fabs(plane[1] * middle[1]) + fabs(plane[2] * middle[2]) +
+                                     fabs(plane[3]));
+        const int own = (of_middle > doubt) - (of_middle < -doubt);
+        double v[3][3], normal[3];
+        int inside = 1;
+
+        if (own == 0 || own == -side)
+            return 0;
+        side = own;
+        for (int k = 0; k < 3; k++)
+            for (int axis = 0; axis < 3; axis++)
+                v[k][axis] = (double)mesh->positions[3 * (size_t)c[k] + (size_t)axis] - middle[axis];
+        inside = gni_dot(v[0], way) > 0.0 || gni_dot(v[1], way) > 0.0 || gni_dot(v[2], way) > 0.0;
+        for (int k = 0; k < 3 && inside != 0; k++) {
+            double along;
+
+            cross(normal, v[k], v[(k + 1) % 3]);
+            along = gni_dot(normal, way);
+            if (!(fabs(along) > SURE * square))
+                return 0;
+            inside = (along > 0.0) == (side < 0);
+        }
+        covered += (uint32_t)inside;
+    }
+    return covered == 1;
+}
+
 int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part)
 {
     gn_context *context = mesh->context;
     tree t = {mesh, NULL, NULL, NULL, 0, part->first_triangle, BUDGET * ((uint64_t)part->triangle_count + LEAF)};
     int result = -1;
 
+    if (is_star(mesh, part))
+        return 1;
     t.box = gni_alloc(context, part->triangle_count, sizeof *t.box);
     t.order = gni_alloc(context, part->triangle_count, sizeof *t.order);
     t.nodes =

@@ -36,41 +36,37 @@ void gn_mesh_destroy(gn_mesh *mesh)
     gni_free(context, mesh);
 }
 
-/* The plane of a triangle: its cross product and minus that times its first vertex. 0 0 0 0 where it has no area. */
-static void plane_of(const gn_mesh *mesh, uint32_t triangle, double plane[4])
+static double square_of(const double v[3])
+{
+    return v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+}
+
+/* The plane of a triangle: its cross product and minus that times its first vertex. 0 0 0 0 where it has no area.
+ * longest: the square of the longest edge so far. */
+static void plane_of(const gn_mesh *mesh, uint32_t triangle, double plane[4], double *longest)
 {
     const uint32_t *c = mesh->triangles + 3 * (size_t)triangle;
-    double v[3][3];
+    double v[3][3], a[3], b[3], d[3], square;
 
     for (int k = 0; k < 3; k++)
         for (int axis = 0; axis < 3; axis++)
             v[k][axis] = (double)mesh->positions[3 * (size_t)c[k] + (size_t)axis];
     for (int axis = 0; axis < 3; axis++) {
-        const int y = (axis + 1) % 3, z = (axis + 2) % 3;
-
-        plane[axis] = (v[1][y] - v[0][y]) * (v[2][z] - v[0][z]) - (v[1][z] - v[0][z]) * (v[2][y] - v[0][y]);
+        a[axis] = v[1][axis] - v[0][axis];
+        b[axis] = v[2][axis] - v[0][axis];
+        d[axis] = v[2][axis] - v[1][axis];
     }
+    gni_cross(plane, a, b);
     plane[3] = -(plane[0] * v[0][0] + plane[1] * v[0][1] + plane[2] * v[0][2]);
-}
-
-static void note_edges(gn_mesh *mesh, uint32_t triangle)
-{
-    const uint32_t *c = mesh->triangles + 3 * (size_t)triangle;
-
-    for (int k = 0; k < 3; k++) {
-        const float *a = mesh->positions + 3 * (size_t)c[k], *b = mesh->positions + 3 * (size_t)c[(k + 1) % 3];
-        const double x = (double)a[0] - (double)b[0], y = (double)a[1] - (double)b[1], z = (double)a[2] - (double)b[2];
-        const double square = x * x + y * y + z * z;
-
-        if (square > mesh->longest_edge * mesh->longest_edge)
-            mesh->longest_edge = sqrt(square);
-    }
+    square = square_of(a) > square_of(b) ? square_of(a) : square_of(b);
+    square = square > square_of(d) ? square : square_of(d);
+    *longest = *longest > square ? *longest : square;
 }
 
 static gn_result make_planes(gn_mesh *mesh)
 {
     const double *first = NULL;
-    double largest = 0.0;
+    double largest = 0.0, longest = 0.0;
     int is_alike = 1;
 
     mesh->planes = gni_alloc(mesh->context, mesh->info.triangle_count, 4 * sizeof(double));
@@ -81,24 +77,24 @@ static gn_result make_planes(gn_mesh *mesh)
     for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
         double *plane = mesh->planes + 4 * (size_t)t;
 
-        plane_of(mesh, t, plane);
-        note_edges(mesh, t);
+        plane_of(mesh, t, plane, &longest);
         if (plane[0] == 0.0 && plane[1] == 0.0 && plane[2] == 0.0)
             continue;
         if (!first)
             first = plane;
-        if (gni_dot(plane, plane) > largest) {
-            largest = gni_dot(plane, plane);
+        if (square_of(plane) > largest) {
+            largest = square_of(plane);
             mesh->largest = t;
         }
         is_alike &= plane[0] * first[0] + plane[1] * first[1] + plane[2] * first[2] > 0.0;
-        for (int k = 0; k < 3; k++) { /* exact: a mesh is planar, or it is not known to be */
+        for (int k = 0; k < 3 && mesh->info.planar; k++) { /* exact: a mesh is planar, or it is not known to be */
             const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];
 
             if (first[0] * (double)p[0] + first[1] * (double)p[1] + first[2] * (double)p[2] + first[3] != 0.0)
                 mesh->info.planar = 0;
         }
     }
+    mesh->longest_edge = sqrt(longest);
     if (!first)
         mesh->info.planar = 0;
     else if (mesh->info.planar && is_alike)

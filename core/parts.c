@@ -14,52 +14,52 @@
 #include <math.h>
 #include <string.h>
 
-static uint32_t root_of(uint32_t *parent, uint32_t t)
-{
-    while (parent[t] != t)
-        t = parent[t] = parent[parent[t]];
-    return t;
-}
-
 static uint32_t triangle_of(uint32_t use)
 {
     return (use & GNI_USE_CORNER) / 3;
 }
 
-static void join(const gn_mesh *mesh, uint32_t *parent)
+/* The triangle that alone shares an edge with this one, wound alike or not; GNI_NONE where there is none. */
+static uint32_t neighbour(const gn_mesh *mesh, uint32_t corner)
 {
-    for (uint32_t t = 0; t < mesh->info.triangle_count; t++)
-        parent[t] = t;
-    for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
-        const uint32_t u = mesh->edge_uses[e];
-        uint32_t a, b;
+    const uint32_t across = mesh->across[corner], edge = mesh->edge_of[corner];
+    uint32_t first;
 
-        if (mesh->edge_uses[e + 1] - u != 2)
-            continue;
-        a = root_of(parent, triangle_of(mesh->uses[u]));
-        b = root_of(parent, triangle_of(mesh->uses[u + 1]));
-        parent[a < b ? b : a] =
-            a < b ? a : b; /* the lowest triangle is the root: parts come in the order of the mesh */
-    }
+    if (across < mesh->info.triangle_count)
+        return across;
+    first = mesh->edge_uses[edge];
+    if (mesh->edge_uses[edge + 1] - first != 2)
+        return GNI_NONE;
+    return triangle_of(mesh->uses[(mesh->uses[first] & GNI_USE_CORNER) == corner ? first + 1 : first]);
 }
 
-/* part_of: from triangle to part, in place of parents; GNI_NONE for degenerate triangles. Returns the number of
- * parts. */
-static uint32_t number_parts(const gn_mesh *mesh, uint32_t *part_of)
+/* part_of: from triangle to part; GNI_NONE for degenerate triangles. stack: [triangle_count]. Returns the number of parts;
+ * they come in the order of their first triangles. */
+static uint32_t number_parts(const gn_mesh *mesh, uint32_t *part_of, uint32_t *stack)
 {
     uint32_t count = 0;
 
-    for (uint32_t t = 0; t < mesh->info.triangle_count; t++)
-        part_of[t] = root_of(part_of, t);
-    for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
-        const uint32_t *c = mesh->triangles + 3 * (size_t)t;
+    memset(part_of, 0xff, mesh->info.triangle_count * sizeof *part_of);
+    for (uint32_t first = 0; first < mesh->info.triangle_count; first++) {
+        uint32_t top = 1;
 
-        if (part_of[t] != t)
-            part_of[t] = part_of[part_of[t]]; /* the root stands before it and has its number already */
-        else if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
-            part_of[t] = GNI_NONE;
-        else
-            part_of[t] = count++;
+        if (part_of[first] != GNI_NONE || mesh->edge_of[3 * (size_t)first] == GNI_NONE)
+            continue;
+        part_of[first] = count;
+        stack[0] = first;
+        while (top > 0) {
+            const uint32_t t = stack[--top];
+
+            for (uint32_t corner = 3 * t; corner < 3 * t + 3; corner++) {
+                const uint32_t other = neighbour(mesh, corner);
+
+                if (other == GNI_NONE || part_of[other] != GNI_NONE)
+                    continue;
+                part_of[other] = count;
+                stack[top++] = other;
+            }
+        }
+        count++;
     }
     return count;
 }
@@ -92,6 +92,8 @@ static void find_closed(gn_mesh *mesh, const uint32_t *part_of, int32_t *sums)
     for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
         const uint32_t first = mesh->edge_uses[e], end = mesh->edge_uses[e + 1];
 
+        if (end - first == 2 && (mesh->uses[first] ^ mesh->uses[first + 1]) & GNI_USE_DOWN)
+            continue; /* of one part, and closed */
         for (uint32_t u = first; u < end; u++)
             sums[part_of[triangle_of(mesh->uses[u])]] += mesh->uses[u] & GNI_USE_DOWN ? -1 : 1;
         for (uint32_t u = first; u < end; u++) {
@@ -159,12 +161,12 @@ gn_result gni_make_parts(gn_mesh *mesh)
     gn_context *context = mesh->context;
     gn_mesh_info *info = &mesh->info;
     uint32_t *part_of = gni_alloc(context, info->triangle_count, sizeof *part_of);
+    uint32_t *stack = gni_alloc(context, info->triangle_count, sizeof *stack);
     int32_t *sums = NULL;
     gn_result result = GN_E_MEMORY;
 
-    if (part_of) {
-        join(mesh, part_of);
-        info->part_count = number_parts(mesh, part_of);
+    if (part_of && stack) {
+        info->part_count = number_parts(mesh, part_of, stack);
         sums = gni_alloc(context, info->part_count, sizeof *sums);
         mesh->parts = gni_alloc(context, info->part_count, sizeof *mesh->parts);
         mesh->part_triangles = gni_alloc(context, info->triangle_count, sizeof *mesh->part_triangles);
@@ -179,6 +181,7 @@ gn_result gni_make_parts(gn_mesh *mesh)
         result = classify(mesh);
     }
     gni_free(context, sums);
+    gni_free(context, stack);
     gni_free(context, part_of);
     if (result == GN_E_MEMORY)
         return gn_fail(context, result, "mesh: no memory for the parts of %lu triangles",
