@@ -9,7 +9,7 @@
 
 static uint32_t rng = 5;
 
-/* A ball, a dented ball, a torus, a plane grid, triangles anywhere; far from the origin, huge or tiny. */
+/* A torus, a rough one, a grid, triangles anywhere; far from the origin, huge or tiny. */
 static void make_mesh(test_mesh *m, uint32_t kind)
 {
     const float size = (float)pow(10.0, test_uniform(&rng, -12, 12)), away = test_random(&rng) % 3 == 0 ? 50.0f : 0.0f;
@@ -21,9 +21,12 @@ static void make_mesh(test_mesh *m, uint32_t kind)
         test_add_torus(m, 2.0f, 0.7f, 60, 24);
         for (size_t i = 0; i < 3 * m->vertex_count; i++)
             m->positions[i] += (float)test_uniform(&rng, -0.02, 0.02);
-    } else if (kind == 2) {
+    } else if (kind == 2) { /* flat, or nearly */
+        const float bend = test_random(&rng) % 2 ? (float)pow(10.0, test_uniform(&rng, -6, -2)) : 0.0f;
+
         for (uint32_t i = 0; i < 30 * 30; i++)
-            test_add_vertex(m, (float)(i % 30), 1.0f, (float)(i / 30));
+            test_add_vertex(m, (float)(i % 30), 1.0f + bend * (float)((i % 30) * (i % 30) + (i / 30) * (i / 30)),
+                            (float)(i / 30));
         for (uint32_t i = 0; i < 29 * 30; i++)
             if (i % 30 != 29) {
                 test_add_triangle(m, i, i + 30, i + 1);
@@ -48,8 +51,9 @@ static void make_light(const gn_mesh *mesh, double light[4])
     const double reach = mesh->radius * pow(10.0, test_uniform(&rng, -1, kind == 4 ? 40 : 1));
     double share[3] = {1, 0, 0};
 
-    for (int k = 0; k < 3 && kind == 1; k++)
-        share[k] = test_uniform(&rng, -3, 3);
+    for (int k = 0; k < 2 && kind == 1; k++)
+        share[k] = test_uniform(&rng, -1, 1) * pow(10.0, test_uniform(&rng, 0, 3));
+    share[2] = kind == 1 ? 1.0 - share[0] - share[1] : 0.0;
     for (int axis = 0; axis < 3; axis++) {
         light[axis] = 0.0;
         for (int k = 0; k < 3; k++)
