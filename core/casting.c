@@ -160,9 +160,7 @@ void gni_towards(double out[3], const gn_light *light)
         out[i] = ldexp(v[i], -exponent);
 }
 
-/* The light in the space of an object's mesh, less its centre: independent of the camera. 0 when the matrix is
- * singular. */
-static int light_in_object(const gn_light *light, const gn_object *object, double out[4])
+int gni_light_in_object(const gn_light *light, const gn_object *object, double out[4])
 {
     const float *centre = object->mesh->info.centre;
     const double c[3] = {(double)centre[0], (double)centre[1], (double)centre[2]};
@@ -219,7 +217,7 @@ void gni_find_object_casting(const gn_object *object, const gn_light *light, gni
     const gn_mesh *mesh = object->mesh;
     double at[4];
 
-    if (light_in_object(light, object, at)) {
+    if (gni_light_in_object(light, object, at)) {
         gni_find_casting(mesh, at, c);
         return;
     }
@@ -275,7 +273,7 @@ void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *fa
     gni_casting c = mesh->scratch;
     double at[4];
 
-    if (light_in_object(light, object, at)) {
+    if (gni_light_in_object(light, object, at)) {
         gn_facing(mesh, at, facing);
         return;
     }

@@ -10,6 +10,7 @@
 struct gn_context {
     gn_port port;
     char message[256];
+    uint32_t caches; /* made so far */
 };
 
 /* Memory from the port that remembers its size; NULL when the port gives none or count * size does not fit. Not
@@ -77,6 +78,7 @@ struct gn_mesh {
     uint32_t *border_starts; /* [cluster_count + 1] in borders */
     uint8_t *borders;        /* corners, counted in their cluster, whose edge is not between two triangles of it */
     gni_casting scratch;     /* for the public functions of casting.c */
+    uint32_t shape;          /* how often its positions have changed */
     uint32_t largest;      /* the triangle of the largest area */
     double radius;         /* of a ball about the hub */
     double longest_edge;
@@ -115,6 +117,9 @@ uint32_t gni_scan_facing(const gn_mesh *mesh, const double light[4], uint64_t *f
 /* casting.c */
 void gni_find_casting(const gn_mesh *mesh, const double light[4], gni_casting *c);
 void gni_find_object_casting(const gn_object *object, const gn_light *light, gni_casting *c);
+/* The light in the space of an object's mesh, less its centre: independent of the camera. 0 when the matrix is
+ * singular. */
+int gni_light_in_object(const gn_light *light, const gn_object *object, double out[4]);
 /* From `of`: all else. */
 void gni_find_bits(const gn_mesh *mesh, gni_casting *c);
 

@@ -74,6 +74,40 @@ typedef enum gni_on_patch {
     GNI_FANS_PATCH /* its projection is its shadow there */
 } gni_on_patch;
 
+/* cache.c */
+#define GNI_CACHED_CHUNKS 4
+enum { GNI_STREAM_FAN, GNI_STREAM_CAP, GNI_STREAM_CONVERGING, GNI_STREAM_KINDS }; /* what its dark cap is: the last has none */
+
+typedef struct gni_stream {
+    uint32_t first, room, count; /* count 0: not made */
+    struct {
+        uint32_t dark_cap, sides, light_cap, turned_cap; /* indices, in this order */
+    } parts[GNI_CACHED_CHUNKS];
+} gni_stream;
+
+/* Of one object in one light. */
+typedef struct gni_slot {
+    const gn_mesh *mesh;
+    uint32_t shape;   /* of the mesh, when it was asked */
+    double light[4];  /* in the space of the mesh */
+    int is_made;      /* some stream is */
+    uint32_t made; /* in which frame, or when it was first asked for */
+    uint32_t triangles, silhouette; /* that cast; weights of edges */
+    int runs_round;   /* its sides, round the hub */
+    gni_stream streams[GNI_STREAM_KINDS];
+} gni_slot;
+
+struct gn_shadow_cache {
+    gn_context *context;
+    uint32_t id;
+    gn_shadow_cache_desc desc;
+    gni_slot *slots; /* [light][object] */
+    uint32_t slot_count, object_count, frame;
+    uint16_t *indices;
+    uint32_t capacity, used, wanted; /* of indices; wanted: from the next frame on */
+    uint32_t version, base_version, dirty[2], built;
+};
+
 /* A plan while it is made. */
 typedef struct gni_draft {
     gn_context *context;
@@ -104,6 +138,8 @@ typedef struct gni_draft {
     gni_casting piece;  /* of the volume at hand: those of one piece */
     uint32_t *order, *parent, *end, *ring;
     uint32_t *cheap_of; /* [object_count] layers of each caster of the light at hand, a cheap bound */
+    gni_slot *slot;    /* of the caster at hand in the cache; NULL: it is not kept */
+    int casting_is_known; /* d->casting is the slot's, or there is none */
     gni_choice choice;
     uint32_t whole[4]; /* the target's pixels */
     double projection[16], view[16];
@@ -179,6 +215,19 @@ double gni_eye_side(const gn_camera *camera, const double plane[4]);
 /* Whether all of a planar object is drawn as seen from a side of plane_in_view(). */
 int gni_shows_side(const gn_object *object, int mirrored, double of_eye);
 
+/* cache.c: a new frame. */
+void gni_start_cache(gn_shadow_cache *cache, const gn_scene *scene);
+/* What the plan says of it. */
+void gni_end_cache(const gn_shadow_cache *cache, gn_plan *plan);
+/* The slot of an object in the light at hand, whose streams may be used, or made; NULL where nothing is kept of it now. */
+gni_slot *gni_find_slot(gni_draft *d, uint32_t object);
+/* Where a stream of at most so many indices may be written; NULL where there is no room. */
+uint16_t *gni_take_room(gn_shadow_cache *cache, gni_stream *stream, uint32_t most);
+void gni_note_change(gn_shadow_cache *cache, const gni_stream *stream);
+
+/* streams.c: makes a stream of the slot at hand if it is not made yet; NULL where there is no room. */
+const gni_stream *gni_make_stream(gni_draft *d, uint32_t object, int kind);
+
 /* receivers.c: for a flat caster, its plane in view space, positive where the light is, if the eye is there too and all
  * of the caster is drawn; else 0. */
 int gni_lit_side(const gni_draft *d, uint32_t object, double plane[4]);
@@ -204,10 +253,20 @@ uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const gni_casting 
                          uint16_t *out);
 
 /* plan_volumes.c */
-/* Planes go the other way: a plane p of view space is p m in the space that m takes to view space. */
-void gni_plane_before(double out[4], const double plane[4], const double m[16]);
+/* Which parts of a volume its way of counting takes, and what way that is. */
+unsigned gni_choose_parts(const gni_draft *d, const gni_volume *v, int *mcguire_case);
+/* d->casting is that of this object in the light at hand. */
+void gni_know_casting(gni_draft *d, uint32_t object);
 /* The volumes of one caster, whose triangles are in d->casting. */
 gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent);
+/* records.c */
+/* Planes go the other way: a plane p of view space is p m in the space that m takes to view space. */
+void gni_plane_before(double out[4], const double plane[4], const double m[16]);
+/* A bound on the layers of a caster that costs no more than to look: half the silhouette, seen from outside. GNI_NONE: it
+ * is not known. */
+void gni_note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t silhouette);
+/* Records from the slot at hand; 0 where it has no room. */
+int gni_add_kept_records(gni_draft *d, const gni_volume *volume);
 /* Fans of the same caster on patches, into d->flats. first_record: of its volume, if it has one. */
 void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record);
 /* Records of one volume: a record for each chunk that has any of it. Returns the sum of the silhouette's weights, or

@@ -147,6 +147,26 @@ typedef struct gn_edge {
  * Returns GN_OK, GN_E_ARG, GN_E_SPACE. Allocates nothing; O(edges). */
 gn_result gn_silhouette(const gn_mesh *mesh, const int8_t *casting, gn_edge *edges, size_t capacity, size_t *count);
 
+/* ---- Shadow cache: what stays from frame to frame ---- */
+
+/* Index streams of casters that do not move as a light does not, so that a moving camera rebuilds nothing and sends no
+ * index. Handed to the planner in gn_scene.cache; objects and lights are known by their places in the scene's arrays.
+ * Meshes of up to 4 chunks. Holds some 30 bytes a triangle for each light; grows in a frame that has more to keep, and
+ * allocates nothing in others. */
+typedef struct gn_shadow_cache gn_shadow_cache;
+
+/* Choices: a shadow is found anew only every so many frames, or when its light has moved so far as the caster sees it
+ * (in the world's lengths; a direction at distance 1), whichever comes first. gn_plan_light.light_moved says how far a
+ * shadow may be behind. Start from {0}. */
+typedef struct gn_shadow_cache_desc {
+    uint32_t update_every;  /* frames [when something has changed] */
+    double update_distance; /* [any] */
+} gn_shadow_cache_desc;
+
+/* Returns GN_OK, GN_E_ARG, GN_E_MEMORY; *cache is NULL unless GN_OK. Without memory later the cache keeps less. */
+gn_result gn_shadow_cache_create(gn_context *context, const gn_shadow_cache_desc *desc, gn_shadow_cache **cache);
+void gn_shadow_cache_destroy(gn_shadow_cache *cache);
+
 /* ---- The scene of one frame ---- */
 
 /* A camera looks along its -z, y up. Start from {0}. */
@@ -300,18 +320,21 @@ typedef struct gn_scene {
      * colors and attenuations must be given; gn_plan_light.possible_error says what may be missing [0: none is left
      * out] */
     double least_light;
+    gn_shadow_cache *cache; /* borrowed while the plan lives; one plan at a time [NULL: none] */
     unsigned without; /* to measure them: a set of gn_measure that the method stencil does without */
 } gn_scene;
 
 enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4 };
 
-/* One chunk of one caster's volume for one light. Its indices stand in gn_plan.indices from first_index on, in this
- * order: sides, dark cap, light cap, turned light cap. The last is the part of the light cap whose triangles cast
- * turned round; it keeps its drawn order of vertices (DESIGN.md, decision 4), so that its front counts as back. */
+/* One chunk of one caster's volume for one light. Its indices stand in gn_plan.indices, or in gn_plan.cached_indices, from
+ * first_index on: sides and dark cap in either order, light cap, turned light cap. The last is the part of the light cap
+ * whose triangles cast turned round; it keeps its drawn order of vertices (DESIGN.md, decision 4), so that its front
+ * counts as back. */
 typedef struct gn_record {
     uint32_t light, object, chunk;
     unsigned parts; /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: those with triangles */
-    uint32_t first_index;
+    int is_cached; /* its indices are in gn_plan.cached_indices */
+    uint32_t first_index, first_side, first_dark_cap;
     uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
     int fan;          /* the dark cap is a fan over the silhouette */
     uint32_t patch;   /* not 0: a projection onto this patch, its dark cap alone, counted where the patch is seen */
@@ -378,6 +401,7 @@ typedef struct gn_plan_light {
         scissor[4]; /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound; all 0: the
                                  light is skipped */
     double depth_bounds[2];   /* window depths of what it lights; 0, 1: no bound */
+    double light_moved;       /* since the oldest shadow from the cache was found, as its caster sees it */
     double possible_error;    /* the most that skipping it takes from a pixel; 0 unless it is GN_SKIP_UNIMPORTANT */
     uint32_t casters;         /* with a volume, or a projection on a patch */
     uint32_t cases[3];        /* of them: McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
@@ -437,6 +461,12 @@ typedef struct gn_plan {
     uint32_t record_count;
     const uint16_t *indices;
     uint32_t index_count;
+    uint32_t cache_id; /* 0: there is none; no two of a context are alike */
+    const uint16_t *cached_indices; /* until the cache's next plan */
+    uint32_t cached_index_count, cached_capacity;
+    uint32_t cache_version, cache_base; /* base: that before this plan; since then only [first, end) has changed: */
+    uint32_t cache_changed[2];
+    uint32_t cache_built; /* streams found anew in this plan */
     const gn_plan_light *lights;
     uint32_t light_count;
     const gn_plan_object *objects;
@@ -456,8 +486,8 @@ typedef struct gn_plan {
  * target's capabilities only. 0 when scene is NULL or the size does not fit size_t. */
 size_t gn_plan_bound(const gn_scene *scene);
 
-/* Makes the plan of a frame in the given memory (aligned for double). Pure: equal scenes give equal bytes. Allocates
- * nothing. Returns GN_OK; GN_E_ARG for what is not finite or out of range; GN_E_SPACE; GN_E_DEVICE when the method
+/* Makes the plan of a frame in the given memory (aligned for double). Pure but for the cache: equal scenes give equal
+ * bytes. Allocates nothing, but for a cache that grows. Returns GN_OK; GN_E_ARG for what is not finite or out of range; GN_E_SPACE; GN_E_DEVICE when the method
  * needs what the target lacks, or when a volume would be clipped at the far plane. Cost, for each light: O(triangles of
  * casters); boxes of casters against boxes of receivers until one is touched; and where more layers are possible than
  * the stencil counts, a few times as much again for each batch. */

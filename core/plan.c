@@ -338,11 +338,15 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     result = make_frame(&d, &own);
     if (result != GN_OK)
         return result;
+    if (scene->cache)
+        gni_start_cache(scene->cache, scene);
     gni_add_step(&d, GN_STEP_CLEAR, GN_DRAW_NOTHING, 0, 0);
     gni_add_step(&d, GN_STEP_DRAW, GN_DRAW_AMBIENT, 0, 0);
     for (uint32_t light = 0; light < scene->light_count && result == GN_OK; light++)
         result = gni_add_light(&d, light);
     gni_add_step(&d, GN_STEP_DRAW, GN_DRAW_FINAL, 0, 0);
+    if (scene->cache)
+        gni_end_cache(scene->cache, d.plan);
     if (result == GN_OK)
         *plan = d.plan;
     return result;

@@ -51,6 +51,7 @@ static void put_record(gni_text *w, const gn_record *r)
     put_plane(w, r->end_plane);
     gni_put(w, ", \"end_reach\": ");
     put_number(w, r->end_reach);
+    gni_put(w, ", \"cached\": %s", r->is_cached ? "true" : "false");
     gni_put(w, ", \"slivers\": %s, \"patch\": %lu, \"unpatched\": %s, \"scissor\": ", r->slivers ? "true" : "false",
             (unsigned long)r->patch, r->unpatched ? "true" : "false");
     put_rectangle(w, r->scissor);
@@ -99,7 +100,9 @@ static void put_light(gni_text *w, const gn_plan *plan, uint32_t light)
     put_number(w, l->depth_bounds[0]);
     gni_put(w, ", ");
     put_number(w, l->depth_bounds[1]);
-    gni_put(w, "], \"possible_error\": ");
+    gni_put(w, "], \"light_moved\": ");
+    put_number(w, l->light_moved);
+    gni_put(w, ", \"possible_error\": ");
     put_number(w, l->possible_error);
     gni_put(
         w,
@@ -162,7 +165,8 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
         gni_put(&w, "%s", p ? ", " : "");
         put_plane(&w, plan->patches[p]);
     }
-    gni_put(&w, "], \"indices\": %lu, \"endless_casters\": %lu,\n \"lights\": [", (unsigned long)plan->index_count,
+    gni_put(&w, "], \"indices\": %lu, \"cached_indices\": %lu, \"streams_built\": %lu, \"endless_casters\": %lu,\n \"lights\": [",
+            (unsigned long)plan->index_count, (unsigned long)plan->cached_index_count, (unsigned long)plan->cache_built,
             (unsigned long)plan->endless_casters);
     for (uint32_t i = 0; i < plan->light_count; i++)
         put_light(&w, plan, i);

@@ -95,8 +95,10 @@ static gn_result add_casters(gni_draft *d)
         d->is_in[i] &= (uint8_t)~GNI_IN_CAST;
         if (d->layers)
             d->cheap_of[i] = 0;
+        d->slot = NULL;
+        d->casting_is_known = 0;
         if (caster->skip == GN_SKIP_NOT || caster->patches)
-            gni_find_object_casting(&d->scene->objects[i], &d->scene->lights[d->light], &d->casting);
+            d->slot = gni_find_slot(d, i);
         if (caster->skip == GN_SKIP_NOT)
             result = gni_add_caster(d, i, &at_hand, &extent);
         if (caster->patches)

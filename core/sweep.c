@@ -125,7 +125,8 @@ static int add_record(const gni_draft *d, const gn_record *r, const bins *in_vie
     const gn_mesh *mesh = object->mesh;
     const uint32_t *vertices = mesh->chunk_vertices + mesh->chunks[r->chunk].first_vertex;
     const uint32_t a_side = r->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? 3 : 6;
-    const uint16_t *index = d->indices + r->first_index;
+    const uint16_t *from = r->is_cached ? d->scene->cache->indices : d->indices;
+    const uint16_t *sides = from + r->first_side, *cap = from + r->first_dark_cap;
     double model_view[16];
     bins b = *in_view;
     int all_fit = 1;
@@ -134,11 +135,11 @@ static int add_record(const gni_draft *d, const gn_record *r, const bins *in_vie
     row_by_matrix(b.along, model_view);
     row_by_matrix(b.depth, model_view);
     for (uint32_t i = 0; i < r->side_count; i += a_side) /* its first two are its near vertices */
-        all_fit &= add_edge(&b, mesh, vertices, index[i], index[i + 1], differences);
+        all_fit &= add_edge(&b, mesh, vertices, sides[i], sides[i + 1], differences);
     for (uint32_t i = 0; i < r->dark_cap_count && r->patch; i += 3) {
-        all_fit &= add_edge(&b, mesh, vertices, index[i + 1], index[i + 2], differences);
+        all_fit &= add_edge(&b, mesh, vertices, cap[i + 1], cap[i + 2], differences);
         for (uint32_t k = 0; k < 2 && !r->fan; k++)
-            all_fit &= add_edge(&b, mesh, vertices, index[i + 2 * k], index[i + (1 - k)], differences);
+            all_fit &= add_edge(&b, mesh, vertices, cap[i + 2 * k], cap[i + (1 - k)], differences);
     }
     return all_fit;
 }

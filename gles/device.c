@@ -65,6 +65,7 @@ gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles 
         return refuse(g, "the GL refuses the volume shaders: see the log");
     g->gl.glGenBuffers(1, &g->quad);
     g->gl.glGenBuffers(1, &g->indices);
+    g->gl.glGenBuffers(1, &g->cached);
     g->gl.glBindBuffer(GL_ARRAY_BUFFER, g->quad);
     g->gl.glBufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STATIC_DRAW);
     gni_leave_state(g);
@@ -89,6 +90,7 @@ void gn_gles_destroy(gn_gles *g)
             gni_delete_upload(g, &g->uploads[i]);
         g->gl.glDeleteBuffers(1, &g->quad);
         g->gl.glDeleteBuffers(1, &g->indices);
+        g->gl.glDeleteBuffers(1, &g->cached);
         g->gl.glDeleteProgram(g->colored.name); /* 0 is none */
         g->gl.glDeleteProgram(g->counted.name);
         g->gl.glDeleteProgram(g->sided.name);

@@ -51,12 +51,15 @@ struct gn_gles {
     gn_port port; /* the context's */
     gn_gl gl;
     int forgotten;
-    GLuint quad, indices;
+    GLuint quad, indices, cached; /* cached: of a shadow cache */
+    uint32_t cache_id; /* what is in it, of which version, and how large it is */
+    uint32_t cache_version, cached_capacity;
     gni_program colored, counted; /* in one colour, and in none */
     gni_program sided;            /* discards one side of triangles, in no colour; its name is 0 until it is made */
     const gni_program *in_use;    /* while volumes are drawn */
     const gn_mesh *pointed;       /* attribute 0 is at this one's chunk; NULL: elsewhere */
     uint32_t pointed_chunk;
+    GLuint bound_indices; /* while volumes are drawn */
     GLuint attribute_arrays;
     gni_upload *uploads; /* sorted by address */
     uint32_t upload_count, upload_capacity;

@@ -10,8 +10,15 @@ void gni_begin_volumes(gn_gles *g, const gni_program *program)
     g->in_use = program;
     g->pointed = NULL;
     g->gl.glUseProgram(program->name);
-    g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->indices);
+    g->bound_indices = 0;
     g->gl.glEnableVertexAttribArray(0);
+}
+
+static void bind_indices(gn_gles *g, GLuint buffer)
+{
+    if (g->bound_indices != buffer)
+        g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer);
+    g->bound_indices = buffer;
 }
 
 /* Attribute 0 at a chunk, where it is not there already; before each chunk stand the hubs of those before it. */
@@ -33,7 +40,7 @@ void gni_draw_surface(gn_gles *g, const gn_plan_object *object)
     const gn_gl *gl = &g->gl;
     const gn_mesh_info *info = gn_mesh_get_info(object->mesh);
 
-    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, gni_find_upload(g, object->mesh)->surface);
+    bind_indices(g, gni_find_upload(g, object->mesh)->surface);
     gl->glUniformMatrix4fv(g->in_use->near_matrix, 1, GL_FALSE, object->matrix);
     for (uint32_t c = 0; c < info->chunk_count; c++) {
         point_at(g, object->mesh, c);
@@ -53,6 +60,7 @@ void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int tu
     if (count == 0)
         return;
     point_at(g, object->mesh, r->chunk);
+    bind_indices(g, r->is_cached ? g->cached : g->indices);
     gl->glUniformMatrix4fv(g->in_use->near_matrix, 1, GL_FALSE, object->matrix);
     gl->glUniformMatrix4fv(g->in_use->far_matrix, 1, GL_FALSE, r->far_matrix);
     gl->glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_SHORT,

@@ -179,6 +179,32 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, h
     return s;
 }
 
+/* What has changed in the plan's cache since it was sent last: mostly nothing. */
+static void send_cached(gn_gles *g, const gn_plan *plan)
+{
+    const gn_gl *gl = &g->gl;
+    const int is_known = g->cache_id == plan->cache_id && g->cached_capacity == plan->cached_capacity;
+    uint32_t first = 0, end = plan->cached_index_count;
+
+    if (plan->cached_capacity == 0 || (is_known && g->cache_version == plan->cache_version))
+        return;
+    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, g->cached);
+    if (!is_known)
+        gl->glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)(plan->cached_capacity * sizeof(uint16_t)), NULL,
+                         GL_DYNAMIC_DRAW);
+    if (is_known && g->cache_version == plan->cache_base) {
+        first = plan->cache_changed[0];
+        end = plan->cache_changed[1];
+    }
+    if (end > first)
+        gl->glBufferSubData(GL_ELEMENT_ARRAY_BUFFER, (GLintptr)(first * sizeof(uint16_t)),
+                            (GLsizeiptr)((end - first) * sizeof(uint16_t)), plan->cached_indices + first);
+    gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
+    g->cache_id = plan->cache_id;
+    g->cache_version = plan->cache_version;
+    g->cached_capacity = plan->cached_capacity;
+}
+
 gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
 {
     unsigned may_switch = 0;
@@ -216,6 +242,8 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
                            GL_STREAM_DRAW);
         g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
     }
+    if (plan->cache_id)
+        send_cached(g, plan);
     return GN_OK;
 }
 

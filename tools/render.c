@@ -30,6 +30,8 @@ const char help_render[] =
     "  --soft N:RADIUS       area lights: N jittered lights within RADIUS in place of each [1:0]\n"
     "  --importance E        leaves out lights that add at most E of full light to any pixel [0]\n"
     "  --blend-once          of coincident surfaces only the first is lit by each light\n"
+    "  --update-every N      finds a shadow anew in every N-th frame only [1]\n"
+    "  --update-distance D   or when its light has moved by D as its caster sees it, in scene units [0]\n"
     "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
     "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
     "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
@@ -41,7 +43,8 @@ const char help_render[] =
 typedef struct job {
     const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report, *soft;
     long size[2], frames, soft_count;
-    double spin, exposure, importance, soft_radius;
+    long update_every;
+    double spin, exposure, importance, soft_radius, update_distance;
     int explain, one_sided, blend_once;
     gn_method method;
 } job;
@@ -112,7 +115,7 @@ static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
         return EXIT_FAILED;
     }
     for (uint32_t i = 0; i < s->scene->light_count; i++) {
-        const stage_wish wish = {j->method, j->one_sided, 1, i, 1, 1, 0, 0.0, 0};
+        const stage_wish wish = {j->method, j->one_sided, 1, i, 1, 1, 0, 0.0, 0, 0};
         const int status = stage_plan(s, &wish, message);
 
         if (status != 0 || !stage_draw_mask(s, i, message)) {
@@ -145,7 +148,8 @@ static int write_plan(const stage *s, const char *path)
 /* One frame, drawn and waited for. Returns 0 or an exit status. */
 static int timed_frame(stage *s, const job *j, int casting, double *ms, char message[SCENE_MESSAGE])
 {
-    const stage_wish wish = {j->method, j->one_sided, casting, 0, s->light_count, 0, j->blend_once, j->importance, 0};
+    const stage_wish wish = {j->method,     j->one_sided,  casting, 0, s->light_count, 0,
+                             j->blend_once, j->importance, 0,       casting};
     const double start = now_ms();
     const int status = stage_plan(s, &wish, message);
 
@@ -292,7 +296,7 @@ static int run(const job *j, const char *path)
 {
     const stage_options options = {
         j->platform, (uint32_t)j->size[0],    (uint32_t)j->size[1], j->exposure, 24, 8, j->hide, 0.0,
-        NULL,        (uint32_t)j->soft_count, j->soft_radius};
+        NULL,        (uint32_t)j->soft_count, j->soft_radius,       {(uint32_t)j->update_every, j->update_distance}};
     char message[SCENE_MESSAGE] = "";
     measured m;
     scene loaded;
@@ -356,7 +360,7 @@ static int one_of(const char *word, const char *const *words)
 int command_render(int count, char **arguments)
 {
     static const char *const shows[] = {"volumes", "silhouette", "cases", "mask", NULL};
-    job j = {.method_name = "auto", .size = {800, 600}, .frames = 1, .soft_count = 1};
+    job j = {.method_name = "auto", .size = {800, 600}, .frames = 1, .soft_count = 1, .update_every = 1};
     const option options[] = {
         {"-o", OPTION_TEXT, &j.frame, 0, 0},
         {"--size", OPTION_SIZE, j.size, 1, 16384},
@@ -370,6 +374,8 @@ int command_render(int count, char **arguments)
         {"--exposure", OPTION_NUMBER, &j.exposure, 1e-12, 1e12},
         {"--soft", OPTION_TEXT, &j.soft, 0, 0},
         {"--importance", OPTION_NUMBER, &j.importance, 0, 1e6},
+        {"--update-every", OPTION_WHOLE, &j.update_every, 1, 1000000},
+        {"--update-distance", OPTION_NUMBER, &j.update_distance, 0, 1e12},
         {"--blend-once", OPTION_FLAG, &j.blend_once, 0, 0},
         {"--show", OPTION_TEXT, &j.show, 0, 0},
         {"--plan", OPTION_TEXT, &j.plan, 0, 0},

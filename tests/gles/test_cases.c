@@ -40,7 +40,8 @@ static void masks_are_the_same(void **state)
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     assert_non_null(list);
     while (fgets(line, sizeof line, list)) {
-        const stage_options options = {"egl", WIDTH, HEIGHT, 1.0, 24, 8, NULL, 0.0, NULL, 0, 0.0};
+        const stage_options options = {
+            .platform = "egl", .width = WIDTH, .height = HEIGHT, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
         char path[128], message[SCENE_MESSAGE] = "";
         scene loaded;
         stage *s;
@@ -55,7 +56,7 @@ static void masks_are_the_same(void **state)
             stage_pose(s, 0, 0);
             place_camera(&loaded, &rng);
             for (int m = 0; m < 2; m++) {
-                const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1, 1, 0, 0.0, ~0u};
+                const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1, 1, 0, 0.0, ~0u, 0};
 
                 assert_int_equal(stage_plan(s, &wish, message), 0);
                 assert_true(stage_draw_mask(s, light, message) && platform_read_back(s->platform, rgba[m]));

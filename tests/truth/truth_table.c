@@ -129,7 +129,7 @@ static double far_of(const scene *s)
 static int draw_masks(const job *j, scene *loaded, int d)
 {
     const stage_options options = {
-        drivers[d].platform, j->width, j->height, 0.0, j->depth_bits, 8, NULL, 0.0, NULL, 0, 0.0};
+        drivers[d].platform, j->width, j->height, 0.0, j->depth_bits, 8, NULL, 0.0, NULL, 0, 0.0, {0, 0.0}};
     char message[SCENE_MESSAGE] = "";
     uint8_t *rgba = malloc(4 * pixels_of(j));
     stage *s;
@@ -146,7 +146,7 @@ static int draw_masks(const job *j, scene *loaded, int d)
         stage_pose(s, 0.0, 0.0);
     for (uint32_t light = 0; !failed && light < j->lights; light++)
         for (int w = 0; !failed && w < WAYS; w++) {
-            const stage_wish wish = {ways[w].method, 0, 1, light, 1, 1, 0, 0.0, ways[w].without};
+            const stage_wish wish = {ways[w].method, 0, 1, light, 1, 1, 0, 0.0, ways[w].without, 0};
             const size_t at = place_of(j, d, w, light);
             int status;
 

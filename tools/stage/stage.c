@@ -106,7 +106,9 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
         snprintf(message, SCENE_MESSAGE, "stage: no memory");
         return refuse(out, s, 1);
     }
-    result = gn_gles_create(s->context, &desc, &s->gles);
+    result = gn_shadow_cache_create(s->context, &options->cache, &s->cache);
+    if (result == GN_OK)
+        result = gn_gles_create(s->context, &desc, &s->gles);
     if (result == GN_OK)
         result = gn_gles_describe_target(s->gles, options->width, options->height, NULL, &s->target);
     if (result != GN_OK) {
@@ -129,6 +131,7 @@ void stage_close(stage *s)
         return;
     stage_release(s);
     gn_gles_destroy(s->gles);
+    gn_shadow_cache_destroy(s->cache);
     gn_context_destroy(s->context);
     platform_close(s->platform);
     free(s);
@@ -327,6 +330,7 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
     frame.blend_once = wish->blend_once;
     frame.least_light = wish->least_light;
     frame.without = wish->without;
+    frame.cache = wish->keeps ? s->cache : NULL;
     size = gn_plan_bound(&frame);
     if (size > s->plan_size) {
         free(s->plan_memory);

@@ -73,6 +73,7 @@ typedef struct stage {
     uint32_t shader_lights; /* lights in one shader here: as many as the GL has uniforms for */
     double finite_far;      /* as in the options */
     int shader_refused;     /* a surface was left out because the GL refuses its shader */
+    gn_shadow_cache *cache;
     void *plan_memory;
     size_t plan_size;
     const gn_plan *plan;
@@ -88,6 +89,7 @@ typedef struct stage_options {
     gn_proc (*replace)(const char *name, gn_proc real); /* tests: a function of GL to take instead; NULL: none */
     uint32_t soft_count;                                /* lights in place of each; 0: 1 */
     double soft_radius;
+    gn_shadow_cache_desc cache;
 } stage_options;
 
 /* Opens a context and uploads the scene. Returns 0, or an exit status of the command (1 or 3) with a message; *out
@@ -108,6 +110,7 @@ typedef struct stage_wish {
     int blend_once;
     double least_light;
     unsigned without; /* of gn_measure */
+    int keeps;        /* shadows from frame to frame, in the stage's cache */
 } stage_wish;
 
 /* Returns 0, or an exit status of the command (1 or 3) with a message. */

@@ -1,0 +1,304 @@
+/* records.c - records of a volume: where its indices are, chunk by chunk, and where its far vertices go.
+ *
+ * Indices are made for this frame, of the parts that its way of counting takes; or they are in the cache, all parts of
+ * them, and a record is a run of these. The fan that closes a volume on a plane is also its projection on any patch: it is
+ * made once. */
+#include "gni_plan.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Planes go the other way: a plane p of view space is p m in object space, row times matrix. */
+void gni_plane_before(double out[4], const double plane[4], const double m[16])
+{
+    double r[4];
+
+    for (int column = 0; column < 4; column++)
+        r[column] = plane[0] * m[4 * column] + plane[1] * m[4 * column + 1] + plane[2] * m[4 * column + 2] +
+                    plane[3] * m[4 * column + 3];
+    memcpy(out, r, sizeof r);
+}
+
+static int greatest_exponent(const double m[16])
+{
+    double most = 0.0;
+    int exponent;
+
+    for (int i = 0; i < 16; i++)
+        most = fmax(most, fabs(m[i]));
+    frexp(most, &exponent);
+    return exponent;
+}
+
+/* Homogeneous matrices mean the same at any scale, and a power of two keeps every bit: far vertices get the magnitude
+ * of near ones. A light far away stays within float, and clipping a side between the two rounds alike in every unit of
+ * length. */
+static void scale_like(double m[16], const double near_matrix[16])
+{
+    const int shift = greatest_exponent(near_matrix) - greatest_exponent(m);
+
+    for (int i = 0; i < 16; i++)
+        m[i] = ldexp(m[i], shift);
+}
+
+/* A record of a volume before its indices. */
+static void start_record(gn_record *r, const gni_draft *d, const gni_volume *v, const uint32_t scissor[4],
+                         uint32_t chunk)
+{
+    const gn_object *object = &d->scene->objects[v->object];
+    double model_view[16], near_matrix[16], extrusion[16], far_matrix[16];
+
+    memset(r, 0, sizeof *r);
+    gni_model_view(model_view, &d->scene->camera, object->model, object->mesh->info.centre);
+    if (v->end_reach > 0.0) {
+        gni_extrusion_by(extrusion, d->bounds.light, v->end_reach);
+    } else {
+        gni_extrusion(extrusion, d->bounds.light, v->end_plane);
+        gni_plane_before(r->end_plane, v->end_plane, d->view);
+    }
+    gn_mat4_multiply(far_matrix, d->projection, extrusion);
+    gn_mat4_multiply(far_matrix, far_matrix, model_view);
+    gn_mat4_multiply(near_matrix, d->projection, model_view);
+    scale_like(far_matrix, near_matrix);
+    gn_mat4_to_float(r->far_matrix, far_matrix);
+    r->light = d->light;
+    r->object = v->object;
+    r->chunk = chunk;
+    r->mirrored = d->objects[v->object].mirrored;
+    r->far_end = v->far_end;
+    r->end_reach = v->end_reach;
+    r->unpatched = v->unpatched;
+    r->first_index = r->first_side = r->first_dark_cap = d->plan->index_count;
+    memcpy(r->scissor, scissor, sizeof r->scissor);
+}
+
+/* Whether the dark cap of a volume that ends on a plane is better a fan. In several chunks it must be so in all, or in
+ * none: closed meshes have the fewer edges. */
+static int is_better_fan(const gn_mesh *mesh, uint32_t edges, uint32_t triangles)
+{
+    return mesh->info.chunk_count > 1 ? mesh->info.solid_part_count == mesh->info.part_count : edges < triangles;
+}
+
+static int is_fan(const gni_draft *d, const gni_volume *v, const gn_record *r, uint32_t triangles,
+                  const uint16_t *sides, uint32_t of_a_side)
+{
+    const gn_object *object = &d->scene->objects[v->object];
+    const gn_mesh *mesh = object->mesh;
+    const double *light = d->bounds.light;
+    double model_view[16];
+
+    if (d->lights[d->light].method != GN_METHOD_STENCIL || v->end_reach > 0.0 || v->far_end == GN_FAR_CLAMPED ||
+        !is_better_fan(mesh, r->side_count / of_a_side, triangles))
+        return 0;
+    if (v->far_end == GN_FAR_ENDED)
+        return !d->region;
+    if (light[3] == 0.0 || mesh->info.chunk_count > 1 || !gni_light_is_outside(&d->boxes[v->object], light))
+        return 0;
+    gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
+    return gni_runs_round_hub(mesh, r->chunk, sides, r->side_count, of_a_side, model_view, light);
+}
+
+static gn_plan_caster *caster_of(gni_draft *d, uint32_t object)
+{
+    return &d->casters[(size_t)d->light * d->scene->object_count + object];
+}
+
+/* A record whose counts are known is one of the plan's. */
+static void keep_record(gni_draft *d, gn_record *r)
+{
+    gn_plan_caster *caster = caster_of(d, r->object);
+
+    r->parts = (r->side_count ? GN_SIDES : 0u) | (r->dark_cap_count ? GN_DARK_CAP : 0u) |
+               (r->light_cap_count + r->turned_cap_count ? GN_LIGHT_CAP : 0u);
+    if (!r->parts)
+        return;
+    d->plan->record_count++;
+    caster->mcguire_case = (uint8_t)r->mcguire_case;
+    caster->parts |= (uint8_t)r->parts;
+    caster->fan |= (uint8_t)r->fan;
+    caster->is_ended |= r->far_end == GN_FAR_ENDED && !d->region;
+}
+
+uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const gni_casting *casting)
+{
+    const gn_mesh *mesh = d->scene->objects[v->object].mesh;
+    const int converges = v->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0;
+    const uint32_t of_a_side = converges ? 3 : 6;
+    int mcguire_case;
+    const unsigned parts = gni_choose_parts(d, v, &mcguire_case);
+    uint32_t silhouette = parts & GN_SIDES ? 0 : GNI_NONE;
+    double eye[4], limit = 0.0;
+    const int slivers = mcguire_case == 1 && parts & GN_LIGHT_CAP && d->lights[d->light].method == GN_METHOD_STENCIL &&
+                        gni_find_slivers(d, v->object, eye, &limit);
+
+    for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
+        gn_record *r = &d->records[d->plan->record_count];
+        uint16_t *const out = d->indices + d->plan->index_count, *at = out;
+
+        start_record(r, d, v, v->extent->scissor, c);
+        r->mcguire_case = mcguire_case;
+        if (parts & GN_SIDES)
+            at += r->side_count = gni_put_sides(mesh, c, casting, converges, at);
+        r->first_dark_cap += r->side_count;
+        if (parts & GN_DARK_CAP && !converges) {
+            r->fan = is_fan(d, v, r, casting->count, out, of_a_side);
+            r->dark_cap_count = r->fan ? gni_put_fan(mesh, c, out, r->side_count, of_a_side, at)
+                                       : gni_put_dark_cap(mesh, c, casting, at);
+            at += r->dark_cap_count;
+        }
+        if (parts & GN_LIGHT_CAP && slivers) {
+            at += r->light_cap_count = gni_put_slivers(mesh, c, casting, eye, limit, at);
+            r->slivers = 1;
+        } else if (parts & GN_LIGHT_CAP) {
+            at += r->light_cap_count = gni_put_light_cap(mesh, c, casting, 1, at);
+            at += r->turned_cap_count = gni_put_light_cap(mesh, c, casting, -1, at);
+        }
+        if (silhouette != GNI_NONE)
+            silhouette += r->side_count / of_a_side;
+        d->plan->index_count += (uint32_t)(at - out);
+        keep_record(d, r);
+    }
+    return silhouette;
+}
+
+/* Of closed meshes a fan. */
+static int kind_of_cap(const gn_mesh *mesh)
+{
+    return mesh->info.solid_part_count == mesh->info.part_count ? GNI_STREAM_FAN : GNI_STREAM_CAP;
+}
+
+/* The stream of the slot at hand that a volume needs; NULL where there is no room. */
+static const gni_stream *stream_for(gni_draft *d, const gni_volume *v, int *kind)
+{
+    const gn_mesh *mesh = d->scene->objects[v->object].mesh;
+    const gni_stream *stream;
+
+    *kind = v->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? GNI_STREAM_CONVERGING : kind_of_cap(mesh);
+    stream = gni_make_stream(d, v->object, *kind);
+    if (!stream || *kind != GNI_STREAM_FAN || v->far_end == GN_FAR_ENDED ||
+        (v->far_end == GN_FAR_INFINITE && d->slot->runs_round && d->lights[d->light].method == GN_METHOD_STENCIL &&
+         gni_light_is_outside(&d->boxes[v->object], d->bounds.light)))
+        return stream;
+    *kind = GNI_STREAM_CAP; /* a fan at infinity would not do */
+    return gni_make_stream(d, v->object, *kind);
+}
+
+int gni_add_kept_records(gni_draft *d, const gni_volume *v)
+{
+    const gn_mesh *mesh = d->scene->objects[v->object].mesh;
+    int mcguire_case, kind;
+    const unsigned parts = gni_choose_parts(d, v, &mcguire_case);
+    const gni_stream *stream = stream_for(d, v, &kind);
+    uint32_t at;
+
+    if (!stream)
+        return 0;
+    at = stream->first;
+    for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
+        const uint32_t dark = stream->parts[c].dark_cap, sides = stream->parts[c].sides;
+        const uint32_t light = stream->parts[c].light_cap, turned = stream->parts[c].turned_cap;
+        gn_record *r = &d->records[d->plan->record_count];
+
+        start_record(r, d, v, v->extent->scissor, c);
+        r->mcguire_case = mcguire_case;
+        r->is_cached = 1;
+        r->fan = kind == GNI_STREAM_FAN && parts & GN_DARK_CAP;
+        r->dark_cap_count = parts & GN_DARK_CAP ? dark : 0;
+        r->side_count = sides;
+        r->light_cap_count = parts & GN_LIGHT_CAP ? light : 0;
+        r->turned_cap_count = parts & GN_LIGHT_CAP ? turned : 0;
+        r->first_dark_cap = at;
+        r->first_side = at + dark;
+        r->first_index = parts & GN_DARK_CAP ? at : at + dark;
+        at += dark + sides + light + turned;
+        keep_record(d, r);
+    }
+    return 1;
+}
+
+void gni_note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t silhouette)
+{
+    uint32_t cheap = triangles;
+
+    if (silhouette != GNI_NONE && silhouette / 2 < triangles && gni_light_is_outside(&d->boxes[object], d->bounds.light))
+        cheap = silhouette / 2;
+    d->cheap_layers += cheap;
+    if (d->layers)
+        d->cheap_of[object] += cheap;
+}
+
+/* The fan of a chunk among its volume's records; 0 where it has none. */
+static int find_fan(const gni_draft *d, uint32_t first_record, uint32_t chunk, gn_record *fan)
+{
+    for (uint32_t i = first_record; i < d->plan->record_count; i++)
+        if (d->records[i].chunk == chunk && d->records[i].fan) {
+            fan->first_index = d->records[i].first_dark_cap;
+            fan->dark_cap_count = d->records[i].dark_cap_count;
+            fan->is_cached = d->records[i].is_cached;
+            fan->fan = 1;
+            return 1;
+        }
+    return 0;
+}
+
+/* The same from the cache. */
+static int find_kept_fan(const gni_draft *d, const gni_stream *stream, int kind, uint32_t chunk, gn_record *fan)
+{
+    uint32_t at = stream ? stream->first : 0;
+
+    for (uint32_t c = 0; c < chunk && stream; c++)
+        at += stream->parts[c].dark_cap + stream->parts[c].sides + stream->parts[c].light_cap + stream->parts[c].turned_cap;
+    if (!stream)
+        return 0;
+    (void)d;
+    fan->first_index = at;
+    fan->dark_cap_count = stream->parts[chunk].dark_cap;
+    fan->is_cached = 1;
+    fan->fan = kind == GNI_STREAM_FAN;
+    return 1;
+}
+
+/* Or made for this frame. */
+static void make_fan(gni_draft *d, const gn_mesh *mesh, uint32_t chunk, gn_record *fan)
+{
+    uint16_t *const out = d->indices + d->plan->index_count;
+    const uint32_t sides = gni_put_sides(mesh, chunk, &d->casting, 1, out);
+
+    fan->first_index = d->plan->index_count;
+    fan->fan = is_better_fan(mesh, sides / 3, d->casting.count);
+    fan->dark_cap_count =
+        fan->fan ? gni_put_fan(mesh, chunk, out, sides, 3, out) : gni_put_dark_cap(mesh, chunk, &d->casting, out);
+    d->plan->index_count += fan->dark_cap_count;
+}
+
+void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record)
+{
+    const gn_mesh *mesh = d->scene->objects[object].mesh;
+    const int kind = kind_of_cap(mesh);
+    const gni_stream *stream = d->slot ? gni_make_stream(d, object, kind) : NULL;
+    uint32_t silhouette = 0;
+
+    if (!stream)
+        gni_know_casting(d, object);
+    for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
+        gn_record shared = {0};
+
+        if (!find_kept_fan(d, stream, kind, c, &shared) && !find_fan(d, first_record, c, &shared))
+            make_fan(d, mesh, c, &shared);
+        silhouette += shared.dark_cap_count / 3;
+        for (uint32_t p = 0; p < d->patch_count && shared.dark_cap_count; p++)
+            if (extent->on[p] == GNI_FANS_PATCH) {
+                const gni_volume v = {object, NULL, extent, GN_FAR_ENDED, d->patches[p].plane, 0.0, 0};
+                gn_record *r = &d->flats[d->flat_count++];
+
+                start_record(r, d, &v, extent->shadow[p], c);
+                r->first_index = r->first_dark_cap = r->first_side = shared.first_index;
+                r->dark_cap_count = shared.dark_cap_count;
+                r->is_cached = shared.is_cached;
+                r->parts = GN_DARK_CAP;
+                r->patch = p + 1;
+                r->fan = shared.fan;
+            }
+    }
+    gni_note_layers(d, object, stream ? d->slot->triangles : d->casting.count, silhouette);
+}
