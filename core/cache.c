@@ -132,8 +132,8 @@ gni_slot *gni_find_slot(gni_draft *d, uint32_t object_index)
         return NULL;
     slot = &cache->slots[at];
     is_loose = cache->desc.update_every > 1 || cache->desc.update_distance > 0.0;
-    is_same = slot->mesh == object->mesh && slot->shape == object->mesh->shape && memcmp(slot->light, light, sizeof light) == 0;
-    moved = slot->mesh == object->mesh && slot->shape == object->mesh->shape
+    is_same = slot->mesh == object->mesh && slot->shape == object->mesh->info.shape && memcmp(slot->light, light, sizeof light) == 0;
+    moved = slot->mesh == object->mesh && slot->shape == object->mesh->info.shape
                 ? distance_between(slot->light, light, gni_stretch(object->model))
                 : INFINITY;
     if (is_same || (slot->is_made && is_loose && isfinite(moved) &&
@@ -148,7 +148,7 @@ gni_slot *gni_find_slot(gni_draft *d, uint32_t object_index)
     for (int kind = 0; kind < GNI_STREAM_KINDS; kind++)
         slot->streams[kind].count = 0;
     slot->mesh = object->mesh;
-    slot->shape = object->mesh->shape;
+    slot->shape = object->mesh->info.shape;
     memcpy(slot->light, light, sizeof light);
     slot->is_made = 0;
     slot->made = cache->frame;

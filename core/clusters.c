@@ -168,6 +168,14 @@ static uint32_t find_borders(gn_mesh *mesh, uint8_t *borders)
     return count;
 }
 
+void gni_fill_clusters(gn_mesh *mesh)
+{
+    for (uint32_t c = 0; c < mesh->cluster_count; c++)
+        fill_lanes(mesh, c);
+    if (mesh->cluster_count)
+        make_tree(mesh);
+}
+
 gn_result gni_make_clusters(gn_mesh *mesh)
 {
     gn_context *context = mesh->context;
@@ -182,9 +190,6 @@ gn_result gni_make_clusters(gn_mesh *mesh)
     if (!mesh->borders)
         return gn_fail(context, GN_E_MEMORY, "mesh: no memory for %lu clusters", (unsigned long)count);
     find_borders(mesh, mesh->borders);
-    for (uint32_t c = 0; c < count; c++)
-        fill_lanes(mesh, c);
-    if (count)
-        make_tree(mesh);
+    gni_fill_clusters(mesh);
     return GN_OK;
 }

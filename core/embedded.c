@@ -288,7 +288,7 @@ static int nodes_apart(tree *t, uint32_t a, uint32_t b)
 /* A part every triangle of which a point sees from the same side, and in whose sight some direction is covered once, is
  * seen in every direction once: so it passes nowhere through itself. (Its projection on a ball around the point covers that
  * everywhere alike.) Cheap, and true of much that is modelled; for what is not it says nothing. */
-static int is_star(const gn_mesh *mesh, const gni_part *part)
+int gni_part_is_star(const gn_mesh *mesh, const gni_part *part)
 {
     static const double way[3] = {0.5773, 0.4637, 0.6719}; /* across no grid */
     const uint32_t *list = mesh->part_triangles + part->first_triangle;
@@ -339,7 +339,7 @@ int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part)
     tree t = {mesh, NULL, NULL, NULL, 0, part->first_triangle, BUDGET * ((uint64_t)part->triangle_count + LEAF)};
     int result = -1;
 
-    if (is_star(mesh, part))
+    if (gni_part_is_star(mesh, part))
         return 1;
     t.box = gni_alloc(context, part->triangle_count, sizeof *t.box);
     t.order = gni_alloc(context, part->triangle_count, sizeof *t.order);

@@ -26,6 +26,7 @@ void gni_free(gn_context *context, void *block);
 typedef struct gni_part {
     uint32_t first_triangle, triangle_count; /* in part_triangles */
     int8_t outward;                          /* solid: 1 or -1, what turns its triangles outward. 0: not solid */
+    int8_t is_closed;                        /* and wound alike: it may be solid */
     float box_min[3], box_max[3];
 } gni_part;
 
@@ -62,6 +63,9 @@ struct gn_mesh {
     gn_mesh_info info;
     float *positions;    /* [vertex_count][3] */
     uint32_t *given;     /* [triangle_count][3], as described */
+    uint32_t *welded;    /* [given_count] the vertex that each one described has become; GNI_NONE of those unused */
+    uint32_t given_count;
+    uint32_t *first_given; /* [vertex_count] scratch of update.c */
     uint32_t *order;     /* [triangle_count] the number in the description of each */
     uint32_t *triangles; /* [triangle_count][3] */
     double *planes;      /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
@@ -78,7 +82,6 @@ struct gn_mesh {
     uint32_t *border_starts; /* [cluster_count + 1] in borders */
     uint8_t *borders;        /* corners, counted in their cluster, whose edge is not between two triangles of it */
     gni_casting scratch;     /* for the public functions of casting.c */
-    uint32_t shape;          /* how often its positions have changed */
     uint32_t largest;      /* the triangle of the largest area */
     double radius;         /* of a ball about the hub */
     double longest_edge;
@@ -92,6 +95,11 @@ struct gn_mesh {
 
 /* weld.c: positions less the centre, and the triangles' indices into them. */
 gn_result gni_weld(gn_mesh *mesh, const gn_mesh_desc *desc);
+/* From positions as they were given; finds the box too. */
+void gni_subtract_centre(gn_mesh *mesh);
+
+/* mesh.c: planes, what they say of the whole, and the hub, of positions and triangles. */
+void gni_find_planes(gn_mesh *mesh);
 
 /* order.c: mesh->order and mesh->triangles, from mesh->given. */
 gn_result gni_order_triangles(gn_mesh *mesh);
@@ -101,13 +109,19 @@ gn_result gni_make_edges(gn_mesh *mesh);
 
 /* parts.c: connected parts, which of them are solid. */
 gn_result gni_make_parts(gn_mesh *mesh);
+/* The same after the mesh has changed its shape, without memory: solid are only parts that are stars. */
+void gni_judge_parts(gn_mesh *mesh);
 
 /* embedded.c: 1 when the part is proven not to touch or pass through itself but where its triangles share vertices;
  * 0 when that is not so or not sure; -1 when memory ran out. */
 int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part);
+/* Of those that a point inside sees all of: quickly, and without memory. */
+int gni_part_is_star(const gn_mesh *mesh, const gni_part *part);
 
 /* clusters.c */
 gn_result gni_make_clusters(gn_mesh *mesh);
+/* Lanes and nodes, from planes and positions. */
+void gni_fill_clusters(gn_mesh *mesh);
 
 /* facing.c: bits of triangles that show front, or back, to the light; [cluster_count] each. By the tree, and without;
  * return how many triangles were looked at. */

@@ -105,6 +105,7 @@ typedef struct gn_mesh_info {
     uint32_t solid_part_count; /* closed, wound alike, not passing through themselves: only their lit triangles cast */
     uint32_t outward_part_count; /* solid parts whose front faces look outward */
     uint32_t chunk_count;
+    uint32_t shape;                 /* how often gn_mesh_update() has changed it */
     int planar;                     /* 1: all triangles lie in one plane; 2: and are wound alike */
     const float *positions;         /* [vertex_count][3], welded, less the centre */
     const uint32_t *triangles;      /* [triangle_count][3], into positions */
@@ -119,6 +120,14 @@ typedef struct gn_mesh_info {
  * GN_OK. Time O(triangles log triangles); holds about 150 bytes a triangle. */
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **mesh);
 void gn_mesh_destroy(gn_mesh *mesh);
+
+/* The same triangles in another shape: positions as in the description, stride bytes from one to the next [12], borrowed
+ * for the call. Vertices that were at one place must be so still. Centre, box, hub, parts and planarity change; what is
+ * shared, chunks and corners do not. A closed part whose triangles are not all seen from the middle of its box counts as
+ * not solid from then on: right, but with more fill. Call gn_gles_upload() again before the next frame. Allocates
+ * nothing; O(triangles). Returns GN_OK, GN_E_ARG, GN_E_MESH: then nothing has changed. */
+gn_result gn_mesh_update(gn_mesh *mesh, const float *positions, size_t stride);
+
 const gn_mesh_info *gn_mesh_get_info(const gn_mesh *mesh);
 
 /* Which side of each triangle looks at the light: 1 its front, -1 its back, 0 neither (the light in its plane, or no

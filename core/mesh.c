@@ -14,6 +14,8 @@ void gn_mesh_destroy(gn_mesh *mesh)
     context = mesh->context;
     gni_free(context, mesh->positions);
     gni_free(context, mesh->given);
+    gni_free(context, mesh->welded);
+    gni_free(context, mesh->first_given);
     gni_free(context, mesh->order);
     gni_free(context, mesh->triangles);
     gni_free(context, mesh->planes);
@@ -63,16 +65,30 @@ static void plane_of(const gn_mesh *mesh, uint32_t triangle, double plane[4], do
     *longest = *longest > square ? *longest : square;
 }
 
-static gn_result make_planes(gn_mesh *mesh)
+static void find_hub(gn_mesh *mesh)
+{
+    double square = 0.0;
+
+    for (int axis = 0; axis < 3; axis++) /* halves, since the sum may be too much for a float */
+        mesh->info.hub[axis] = 0.5f * mesh->info.box_min[axis] + 0.5f * mesh->info.box_max[axis];
+    for (uint32_t v = 0; v < mesh->info.vertex_count; v++) {
+        double d[3], of_vertex;
+
+        for (int axis = 0; axis < 3; axis++)
+            d[axis] = (double)mesh->positions[3 * (size_t)v + (size_t)axis] - (double)mesh->info.hub[axis];
+        of_vertex = square_of(d);
+        square = of_vertex > square ? of_vertex : square;
+    }
+    mesh->radius = sqrt(square);
+}
+
+void gni_find_planes(gn_mesh *mesh)
 {
     const double *first = NULL;
     double largest = 0.0, longest = 0.0;
     int is_alike = 1;
 
-    mesh->planes = gni_alloc(mesh->context, mesh->info.triangle_count, 4 * sizeof(double));
-    if (!mesh->planes)
-        return gn_fail(mesh->context, GN_E_MEMORY, "mesh: no memory for the planes of %lu triangles",
-                       (unsigned long)mesh->info.triangle_count);
+    mesh->largest = 0;
     mesh->info.planar = mesh->info.triangle_count > 0;
     for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
         double *plane = mesh->planes + 4 * (size_t)t;
@@ -99,6 +115,16 @@ static gn_result make_planes(gn_mesh *mesh)
         mesh->info.planar = 0;
     else if (mesh->info.planar && is_alike)
         mesh->info.planar = 2;
+    find_hub(mesh);
+}
+
+static gn_result make_planes(gn_mesh *mesh)
+{
+    mesh->planes = gni_alloc(mesh->context, mesh->info.triangle_count, 4 * sizeof(double));
+    if (!mesh->planes)
+        return gn_fail(mesh->context, GN_E_MEMORY, "mesh: no memory for the planes of %lu triangles",
+                       (unsigned long)mesh->info.triangle_count);
+    gni_find_planes(mesh);
     return GN_OK;
 }
 
@@ -109,29 +135,11 @@ static gn_result make_scratch(gn_mesh *mesh)
     c->of = gni_alloc(mesh->context, (size_t)mesh->info.triangle_count + 1, 1);
     c->bits = gni_alloc(mesh->context, mesh->cluster_count, sizeof *c->bits);
     c->spare = gni_alloc(mesh->context, mesh->cluster_count, sizeof *c->spare);
-    if (!c->of || !c->bits || !c->spare)
+    mesh->first_given = gni_alloc(mesh->context, mesh->info.vertex_count, sizeof *mesh->first_given);
+    if (!c->of || !c->bits || !c->spare || !mesh->first_given)
         return gn_fail(mesh->context, GN_E_MEMORY, "mesh: no memory for the facing of %lu triangles",
                        (unsigned long)mesh->info.triangle_count);
     return GN_OK;
-}
-
-static void find_hub(gn_mesh *mesh)
-{
-    double square = 0.0;
-
-    for (int axis = 0; axis < 3; axis++) /* halves, since the sum may be too much for a float */
-        mesh->info.hub[axis] = 0.5f * mesh->info.box_min[axis] + 0.5f * mesh->info.box_max[axis];
-    for (uint32_t v = 0; v < mesh->info.vertex_count; v++) {
-        double of_vertex = 0.0;
-
-        for (int axis = 0; axis < 3; axis++) {
-            const double d = (double)mesh->positions[3 * (size_t)v + (size_t)axis] - (double)mesh->info.hub[axis];
-
-            of_vertex += d * d;
-        }
-        square = of_vertex > square ? of_vertex : square;
-    }
-    mesh->radius = sqrt(square);
 }
 
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **out)
@@ -180,7 +188,6 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
     mesh->info.chunks = mesh->chunks;
     mesh->info.chunk_vertices = mesh->chunk_vertices;
     mesh->info.corners = mesh->corners;
-    find_hub(mesh);
     *out = mesh;
     return GN_OK;
 }

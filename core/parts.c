@@ -136,11 +136,18 @@ static void measure(gn_mesh *mesh, gni_part *part)
         part->outward = -1;
 }
 
+static void count_part(gn_mesh *mesh, const gni_part *part)
+{
+    mesh->info.solid_part_count += part->outward != 0;
+    mesh->info.outward_part_count += part->outward > 0;
+}
+
 static gn_result classify(gn_mesh *mesh)
 {
     for (uint32_t p = 0; p < mesh->info.part_count; p++) {
         gni_part *part = &mesh->parts[p];
 
+        part->is_closed = part->outward;
         measure(mesh, part);
         if (part->outward) {
             const int embedded = gni_part_is_embedded(mesh, part);
@@ -150,10 +157,23 @@ static gn_result classify(gn_mesh *mesh)
             if (!embedded)
                 part->outward = 0;
         }
-        mesh->info.solid_part_count += part->outward != 0;
-        mesh->info.outward_part_count += part->outward > 0;
+        count_part(mesh, part);
     }
     return GN_OK;
+}
+
+void gni_judge_parts(gn_mesh *mesh)
+{
+    mesh->info.solid_part_count = mesh->info.outward_part_count = 0;
+    for (uint32_t p = 0; p < mesh->info.part_count; p++) {
+        gni_part *part = &mesh->parts[p];
+
+        part->outward = part->is_closed;
+        measure(mesh, part);
+        if (part->outward && !gni_part_is_star(mesh, part))
+            part->outward = 0;
+        count_part(mesh, part);
+    }
 }
 
 gn_result gni_make_parts(gn_mesh *mesh)

@@ -7,7 +7,8 @@
  * sides of the plane all that is seen of it is shadow.
  *
  * A patch is the planar objects of one plane, drawn whole. Its pixels are named once a frame in the bits above the count,
- * by drawing it again where it is no more than a step of depth behind what is seen (nothing is seen behind it). */
+ * by drawing it again where its depth is the one that is seen: as the host's passes find their surfaces again. One step of
+ * tolerance would name what stands on the plane, along the line where it does. */
 #include "gni_plan.h"
 
 #include <math.h>

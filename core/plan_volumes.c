@@ -135,6 +135,7 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
     const gn_mesh *mesh = object->mesh;
     double model_view[16];
 
+    gni_know_casting(d, object_index);
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
     if (!gni_choose_ends(d->ends, d->region, mesh, model_view, d->bounds.light, d->casting.of, d->end_of))
         return clamp_or_refuse(d, object_index, at_hand, extent);

@@ -62,11 +62,12 @@ static uint32_t number_vertices(gn_mesh *mesh, const gn_mesh_desc *desc, uint32_
             table[slot] = count++;
         }
         mesh->given[i] = table[slot];
+        mesh->welded[desc->indices[i]] = table[slot];
     }
     return count;
 }
 
-static void subtract_centre(gn_mesh *mesh)
+void gni_subtract_centre(gn_mesh *mesh)
 {
     gn_mesh_info *info = &mesh->info;
 
@@ -104,13 +105,16 @@ gn_result gni_weld(gn_mesh *mesh, const gn_mesh_desc *desc)
     table = gni_alloc(context, (size_t)mask + 1, sizeof *table);
     mesh->positions = gni_alloc(context, most, 3 * sizeof(float));
     mesh->given = gni_alloc(context, corners, sizeof *mesh->given);
-    if (!table || !mesh->positions || !mesh->given) {
+    mesh->welded = gni_alloc(context, desc->vertex_count, sizeof *mesh->welded);
+    if (!table || !mesh->welded || !mesh->positions || !mesh->given) {
         gni_free(context, table);
         return gn_fail(context, GN_E_MEMORY, "mesh: no memory to weld %lu vertices", (unsigned long)desc->vertex_count);
     }
+    memset(mesh->welded, 0xff, desc->vertex_count * sizeof *mesh->welded);
+    mesh->given_count = (uint32_t)desc->vertex_count;
     mesh->info.triangle_count = (uint32_t)desc->triangle_count;
     mesh->info.vertex_count = number_vertices(mesh, desc, table, mask);
     gni_free(context, table);
-    subtract_centre(mesh);
+    gni_subtract_centre(mesh);
     return GN_OK;
 }

@@ -37,15 +37,16 @@ static const float *vertex_of(const gn_mesh_info *info, const gn_chunk *chunk, u
                : info->hub;
 }
 
-static void send_vertices(const gn_gl *gl, const gn_mesh_info *info)
+static void send_vertices(const gn_gl *gl, const gn_mesh_info *info, int is_new)
 {
     const gn_chunk *last = &info->chunks[info->chunk_count - 1];
     uint32_t at = 0;
     float batch[BATCH][2][4];
 
-    gl->glBufferData(GL_ARRAY_BUFFER,
-                     (GLsizeiptr)((last->first_vertex + last->vertex_count + info->chunk_count) * sizeof batch[0]), NULL,
-                     GL_STATIC_DRAW);
+    if (is_new)
+        gl->glBufferData(GL_ARRAY_BUFFER,
+                         (GLsizeiptr)((last->first_vertex + last->vertex_count + info->chunk_count) * sizeof batch[0]),
+                         NULL, GL_STATIC_DRAW);
     for (uint32_t c = 0; c < info->chunk_count; c++)
         for (uint32_t first = 0; first <= info->chunks[c].vertex_count; first += BATCH) {
             const uint32_t rest = info->chunks[c].vertex_count + 1 - first, n = rest < BATCH ? rest : BATCH;
@@ -78,9 +79,17 @@ gn_result gn_gles_upload(gn_gles *g, const gn_mesh *mesh)
         return gn_fail(g ? g->context : NULL, GN_E_ARG, "gn_gles_upload: NULL argument");
     if (g->forgotten)
         return gn_fail(g->context, GN_E_ARG, "gn_gles_upload: the GL context was lost");
-    if (gni_find_upload(g, mesh))
-        return GN_OK;
     gl = &g->gl;
+    at = place_of(g, mesh);
+    if (gni_find_upload(g, mesh) && g->uploads[at].shape == gn_mesh_get_info(mesh)->shape)
+        return GN_OK;
+    if (gni_find_upload(g, mesh)) {
+        gl->glBindBuffer(GL_ARRAY_BUFFER, g->uploads[at].buffer);
+        send_vertices(gl, gn_mesh_get_info(mesh), 0);
+        gl->glBindBuffer(GL_ARRAY_BUFFER, 0);
+        g->uploads[at].shape = gn_mesh_get_info(mesh)->shape;
+        return GN_OK;
+    }
     if (g->upload_count == g->upload_capacity) {
         const uint32_t capacity = g->upload_capacity ? 2 * g->upload_capacity : 16;
         gni_upload *grown =
@@ -94,7 +103,7 @@ gn_result gn_gles_upload(gn_gles *g, const gn_mesh *mesh)
     gl->glGenBuffers(2, buffers);
     gl->glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
     gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-    send_vertices(gl, gn_mesh_get_info(mesh));
+    send_vertices(gl, gn_mesh_get_info(mesh), 1);
     send_surface(gl, gn_mesh_get_info(mesh));
     gl->glBindBuffer(GL_ARRAY_BUFFER, 0);
     gl->glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
@@ -105,7 +114,7 @@ gn_result gn_gles_upload(gn_gles *g, const gn_mesh *mesh)
     }
     at = place_of(g, mesh);
     memmove(g->uploads + at + 1, g->uploads + at, (g->upload_count - at) * sizeof *g->uploads);
-    g->uploads[at] = (gni_upload){mesh, buffers[0], buffers[1]};
+    g->uploads[at] = (gni_upload){mesh, buffers[0], buffers[1], gn_mesh_get_info(mesh)->shape};
     g->upload_count++;
     return GN_OK;
 }

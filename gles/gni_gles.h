@@ -27,6 +27,7 @@ typedef struct gni_state {
 typedef struct gni_upload {
     const gn_mesh *mesh;
     GLuint buffer, surface; /* vertices; indices of all triangles as they are drawn */
+    uint32_t shape;         /* of the mesh when they were sent */
 } gni_upload;
 
 /* Of extensions that gl2.h does not know; desktop OpenGL has the same numbers. */

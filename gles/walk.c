@@ -96,19 +96,17 @@ static gni_state darken(const gn_stencil_layout *layout, uint32_t patch)
     return s;
 }
 
-/* A patch's own triangles, where they are what is seen: a step of depth nearer they are not behind it, and it is not
- * behind them. */
+/* A patch's own triangles, where they are what is seen: by the one statement of positions their depths are the same. */
 static gni_state mark(const gn_stencil_layout *layout, uint32_t patch)
 {
     static const gni_face replace = {0, GL_REPLACE};
     const gni_state s = {.stencil_write = name_mask(layout),
-                         .depth_func = GL_LEQUAL,
+                         .depth_func = GL_EQUAL,
                          .stencil_func = GL_ALWAYS,
                          .stencil_reference = name_of(layout, patch),
                          .stencil_mask = ~0u,
                          .front = replace,
-                         .back = replace,
-                         .offset = -1};
+                         .back = replace};
 
     return s;
 }
@@ -179,6 +177,21 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, h
     return s;
 }
 
+/* 0 with a message. */
+static int is_uploaded(gn_gles *g, const gn_plan *plan, uint32_t object)
+{
+    const gn_mesh *mesh = plan->objects[object].mesh;
+    const gni_upload *upload = gni_find_upload(g, mesh);
+
+    if (upload && upload->shape == gn_mesh_get_info(mesh)->shape)
+        return 1;
+    gn_fail(g->context, GN_E_ARG,
+            upload ? "gn_gles_begin: the mesh of object %lu was not uploaded since its update"
+                   : "gn_gles_begin: the mesh of object %lu was not uploaded",
+            (unsigned long)object);
+    return 0;
+}
+
 /* What has changed in the plan's cache since it was sent last: mostly nothing. */
 static void send_cached(gn_gles *g, const gn_plan *plan)
 {
@@ -215,15 +228,13 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
     if (g->forgotten)
         return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the GL context was lost");
     for (uint32_t i = 0; i < plan->record_count; i++) {
-        if (!gni_find_upload(g, plan->objects[plan->records[i].object].mesh))
-            return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the mesh of object %lu was not uploaded",
-                           (unsigned long)plan->records[i].object);
+        if (!is_uploaded(g, plan, plan->records[i].object))
+            return GN_E_ARG;
         may_switch |= plan->records[i].far_end == GN_FAR_CLAMPED ? GNI_SWITCH_CLAMP : 0u;
     }
     for (uint32_t i = 0; i < plan->object_count; i++)
-        if (plan->objects[i].patch && !gni_find_upload(g, plan->objects[i].mesh))
-            return gn_fail(g->context, GN_E_ARG, "gn_gles_begin: the mesh of object %lu was not uploaded",
-                           (unsigned long)i);
+        if (plan->objects[i].patch && !is_uploaded(g, plan, i))
+            return GN_E_ARG;
     for (uint32_t i = 0; i < plan->light_count; i++) {
         const gn_plan_light *l = &plan->lights[i];
 
