@@ -193,8 +193,13 @@ static uint32_t sort_chains(const cutter *c)
         total += count;
     }
     for (uint32_t t = 0; t < triangles; t++)
+        c->d->ring[mesh->order[t]] = t;
+    for (uint32_t given = 0; given < triangles; given++) { /* as a strip is given, so it is best cut */
+        const uint32_t t = c->d->ring[given];
+
         if (c->casting[t])
             c->d->order[end[parent[t]]++] = t;
+    }
     return total;
 }
 
