@@ -17,6 +17,8 @@
 #define FLAT   1e-6         /* of the greatest coordinate: so near to a plane is in it */
 #define BELOW  (1.0 / 64.0) /* of the light's height: a caster must stay below it by this */
 #define LEAST  (1.0 / 64.0) /* of the target's pixels, of a patch that is worth its bits */
+#define PRICE  1.0          /* of naming a pixel, in pixels of volumes */
+#define LEFT   255          /* in gn_plan_object.patch meanwhile: it was tried */
 
 int gni_plane_in_view(const gn_object *object, const gn_camera *camera, double plane[4])
 {
@@ -102,6 +104,72 @@ static int lies_in(const gni_hull *box, const double plane[4])
     return range[0] >= -near && range[1] <= near;
 }
 
+/* Where the caster's projection is seen on the plane; 0 where a corner of its box has none. */
+static int find_shadow(uint32_t out[4], const gni_draft *d, const gni_hull *box, const double plane[4],
+                       const double light[4])
+{
+    const double of_light = gni_dot(plane, light) + plane[3] * light[3];
+    gni_hull shadow;
+    double extrusion[16];
+
+    gni_extrusion(extrusion, light, plane);
+    memset(&shadow, 0, sizeof shadow);
+    shadow.point_count = box->point_count;
+    for (int i = 0; i < box->point_count; i++) {
+        const double w = of_light - light[3] * (gni_dot(plane, box->points[i]) + plane[3]);
+
+        if (!(w > 0.0))
+            return 0;
+        gn_mat4_transform(shadow.points[i], extrusion, box->points[i], 1.0);
+        for (int k = 0; k < 3; k++)
+            shadow.points[i][k] /= w;
+    }
+    gni_find_rectangle(out, &shadow, &d->scene->camera, &d->scene->target);
+    return 1;
+}
+
+static double area_of(const uint32_t rectangle[4])
+{
+    return (double)rectangle[2] * rectangle[3];
+}
+
+/* About how many pixels a caster's volume covers less when it need not reach the patch: the box around caster and shadow
+ * on the image, less the two themselves. */
+static double saving_of(const gni_draft *d, uint32_t object, const gni_patch *patch, const double light[4])
+{
+    const double of_light = gni_dot(patch->plane, light) + patch->plane[3] * light[3];
+    uint32_t both[4], shadow[4];
+    double range[2];
+
+    heights(range, &d->boxes[object], patch->plane);
+    if (!(of_light > 0.0) || !(range[1] > 0.0) || !find_shadow(shadow, d, &d->boxes[object], patch->plane, light))
+        return 0.0;
+    gni_meet_rectangles(shadow, patch->rectangle);
+    memcpy(both, d->rectangles[object], sizeof both);
+    gni_join_rectangles(both, shadow);
+    return fmax(area_of(both) - area_of(d->rectangles[object]) - area_of(shadow), 0.0);
+}
+
+/* Whether all volumes save more than naming the patch costs, which is once its pixels. */
+static int is_worth_it(const gni_draft *d, const gni_patch *patch)
+{
+    const gn_scene *s = d->scene;
+    double saved = 0.0;
+
+    for (uint32_t l = 0; l < s->light_count; l++) {
+        double light[4];
+
+        gni_light_in_view(d, &s->lights[l], light);
+        for (uint32_t i = 0; i < s->object_count; i++) {
+            if (s->objects[i].flags & GN_CASTS)
+                saved += saving_of(d, i, patch, light);
+            if (saved > PRICE * area_of(patch->rectangle))
+                return 1;
+        }
+    }
+    return 0;
+}
+
 void gni_find_patches(gni_draft *d)
 {
     const gn_scene *s = d->scene;
@@ -132,13 +200,22 @@ void gni_find_patches(gni_draft *d)
         if (found == GNI_NONE)
             break;
         memcpy(patch->rectangle, d->rectangles[found], sizeof patch->rectangle);
-        d->patch_count++;
         for (uint32_t i = 0; i < s->object_count; i++)
             if (!d->objects[i].patch && (i == found || (is_flat(d, i, plane) && lies_in(&d->boxes[i], patch->plane)))) {
-                d->objects[i].patch = (uint8_t)d->patch_count;
+                d->objects[i].patch = (uint8_t)(d->patch_count + 1);
                 gni_join_rectangles(patch->rectangle, d->rectangles[i]);
             }
+        if (is_worth_it(d, patch)) {
+            d->patch_count++;
+            continue;
+        }
+        for (uint32_t i = 0; i < s->object_count; i++)
+            if (d->objects[i].patch == d->patch_count + 1)
+                d->objects[i].patch = LEFT;
     }
+    for (uint32_t i = 0; i < s->object_count; i++)
+        if (d->objects[i].patch == LEFT)
+            d->objects[i].patch = 0;
 }
 
 /* The heights of a caster's own vertices and of its hub, where its box is too large. */
@@ -170,29 +247,6 @@ static gni_on_patch judge(const double range[2], double of_light, int is_sun, do
     if (!is_sun && range[0] >= of_light * (1.0 + GNI_MARGIN))
         return GNI_SPARES_PATCH;
     return range[0] >= -near && (is_sun || range[1] <= of_light * (1.0 - BELOW)) ? GNI_FANS_PATCH : GNI_FILLS_PATCH;
-}
-
-/* Where the caster's projection is seen on the plane. */
-static void find_shadow(uint32_t out[4], const gni_draft *d, const gni_hull *box, const gni_patch *patch)
-{
-    gni_hull shadow;
-    double extrusion[16];
-
-    gni_extrusion(extrusion, d->bounds.light, patch->plane);
-    memset(&shadow, 0, sizeof shadow);
-    shadow.point_count = box->point_count;
-    for (int i = 0; i < box->point_count; i++) {
-        const double w = patch->of_light - d->bounds.light[3] * (gni_dot(patch->plane, box->points[i]) + patch->plane[3]);
-
-        if (!(w > 0.0)) { /* this corner of the box is no vertex */
-            memcpy(out, patch->rectangle, sizeof patch->rectangle);
-            return;
-        }
-        gn_mat4_transform(shadow.points[i], extrusion, box->points[i], 1.0);
-        for (int k = 0; k < 3; k++)
-            shadow.points[i][k] /= w;
-    }
-    gni_find_rectangle(out, &shadow, &d->scene->camera, &d->scene->target);
 }
 
 void gni_light_patches(gni_draft *d)
@@ -233,7 +287,8 @@ gni_on_patch gni_cast_on_patch(const gni_draft *d, uint32_t object, const gni_pa
     }
     if (is != GNI_FANS_PATCH)
         return is;
-    find_shadow(image, d, box, patch);
+    if (!find_shadow(image, d, box, patch->plane, d->bounds.light)) /* the corner is no vertex */
+        memcpy(image, patch->rectangle, sizeof image);
     gni_choose_scissor(rectangle, d, image, patch->rectangle);
     return rectangle[2] > 0 && rectangle[3] > 0 ? GNI_FANS_PATCH : GNI_SPARES_PATCH;
 }

@@ -4,7 +4,7 @@
  *     bench_stencil [SCENE...]     [all scenes of build/scenes/scenes.txt but the extremes]
  *
  * Writes a CSV, a row for each scene, and as its last rows the medians of the ratios over scenes with four lights and
- * more. Fails when stencil costs more than z-fail anywhere. */
+ * more. Fails when stencil takes more vertices or rasterises more fragments than z-fail anywhere. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +16,9 @@ enum { WIDTH = 320, HEIGHT = 240, MOST = 200, COUNTS = 6 };
 
 static const char *const names[COUNTS] = {"frame_draws",     "frame_vertices",       "volume_draws",
                                           "volume_vertices", "fragments_rasterised", "fragments_passed"};
+
+/* Ended volumes have ends that are seen, and projections are draws of their own: these may be more. */
+static const int is_bound[COUNTS] = {0, 1, 0, 1, 1, 0};
 
 typedef struct row {
     char scene[64];
@@ -111,7 +114,7 @@ int main(int argument_count, char **arguments)
             return 1;
         print(&rows[i]);
         for (int c = 0; c < COUNTS; c++)
-            if (rows[i].stencil[c] > rows[i].zfail[c]) {
+            if (is_bound[c] && rows[i].stencil[c] > rows[i].zfail[c]) {
                 fprintf(stderr, "bench_stencil: %s: more %s by stencil than by z-fail\n", rows[i].scene, names[c]);
                 failed = 1;
             }
