@@ -4,7 +4,7 @@
  *     bench_stencil [SCENE...]     [all scenes of build/scenes/scenes.txt but the extremes]
  *
  * Writes a CSV, a row for each scene, and as its last rows the medians of the ratios over scenes with four lights and
- * more. Fails when stencil takes more vertices or rasterises more fragments than z-fail anywhere. */
+ * more. Fails when stencil rasterises more fragments than z-fail anywhere. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +17,9 @@ enum { WIDTH = 320, HEIGHT = 240, MOST = 200, COUNTS = 6 };
 static const char *const names[COUNTS] = {"frame_draws",     "frame_vertices",       "volume_draws",
                                           "volume_vertices", "fragments_rasterised", "fragments_passed"};
 
-/* Ended volumes have ends that are seen, and projections are draws of their own: these may be more. */
-static const int is_bound[COUNTS] = {0, 1, 0, 1, 1, 0};
+/* Ended volumes have ends that are seen, sides of two triangles even of a sun, and projections are draws of their own: what
+ * costs are fragments. */
+static const int is_bound[COUNTS] = {0, 0, 0, 0, 1, 0};
 
 typedef struct row {
     char scene[64];
