@@ -71,10 +71,12 @@ test: $(TESTS) $(B)/tests/truth/truth_table $(B)/tests/bench/bench_stencil $(B)/
 truth: $(B)/gnomon $(B)/tests/truth/truth_table $(SCENES) ## masks of all test scenes against the ray-traced truth
 	@sh tests/truth/truth.sh $(B) $(TRUTH_ARGS)
 
-bench: $(BENCHES) $(SCENES) ## what things cost: counts, and times as remarks; into tests/bench/stencil.csv too
+bench: $(BENCHES) $(SCENES) ## what things cost: counts, and times as remarks; into tests/bench/*.csv (an hour; needs valgrind)
 	@$(B)/tests/bench/bench_proofs > /dev/null && $(B)/tests/bench/bench_proofs
 	@$(B)/tests/bench/bench_stencil > build/stencil.csv && mv build/stencil.csv tests/bench/stencil.csv
 	@grep '^#' tests/bench/stencil.csv
+	@sh tests/bench/rebuild.sh $(B) "$(CC)" > build/rebuild.csv && mv build/rebuild.csv tests/bench/rebuild.csv
+	@$(B)/tests/bench/bench_frames > build/frames.csv && mv build/frames.csv tests/bench/frames.csv
 
 boards: $(B)/gnomon ## probe every driver that this machine can run, into docs/boards.md
 	@$(PYTHON) tests/boards.py $(B)/gnomon > build/boards.md && mv build/boards.md docs/boards.md

@@ -133,9 +133,16 @@ void gni_find_bits(const gn_mesh *mesh, gni_casting *c)
 
 void gni_find_casting(const gn_mesh *mesh, const double light[4], gni_casting *c)
 {
+    c->looked_at = gni_find_facing(mesh, light, c->bits, c->spare);
+    gni_cast(mesh, light, c);
+}
+
+void gni_cast(const gn_mesh *mesh, const double light[4], gni_casting *c)
+{
     const int plain = is_plain(mesh, light), inward = plain && mesh->info.outward_part_count == 0;
 
-    c->looked_at = gni_find_facing(mesh, light, inward ? c->spare : c->bits, inward ? c->bits : c->spare);
+    if (inward)
+        memcpy(c->bits, c->spare, mesh->cluster_count * sizeof *c->bits);
     if (!plain) {
         cast_by_part(mesh, light, c);
         gni_find_bits(mesh, c);

@@ -53,8 +53,11 @@ static int exact_side(const double plane[4], const double light[4])
     return (side > 0.0) - (side < 0.0);
 }
 
-/* One source for SSE, AVX2 and NEON: the compiler makes of a vector of LANES what there is. Elsewhere one by one. */
-#if defined(__GNUC__) && defined(__AVX2__)
+/* One source for SSE, AVX2 and NEON: the compiler makes of a vector of LANES what there is. Elsewhere, or where tests
+ * define GNI_SCALAR, one by one. */
+#if defined(GNI_SCALAR)
+#define LANES 1
+#elif defined(__GNUC__) && defined(__AVX2__)
 #define LANES 8
 #elif defined(__GNUC__)
 #define LANES 4

@@ -130,6 +130,8 @@ uint32_t gni_scan_facing(const gn_mesh *mesh, const double light[4], uint64_t *f
 
 /* casting.c */
 void gni_find_casting(const gn_mesh *mesh, const double light[4], gni_casting *c);
+/* From facing: bits of fronts, spare of backs. */
+void gni_cast(const gn_mesh *mesh, const double light[4], gni_casting *c);
 void gni_find_object_casting(const gn_object *object, const gn_light *light, gni_casting *c);
 /* The light in the space of an object's mesh, less its centre: independent of the camera. 0 when the matrix is
  * singular. */

@@ -33,6 +33,11 @@ for program in "$@"; do
 done
 without_leaks sh tests/tools/command.sh "$build" > "$build/one.log" 2>&1
 count tests/tools/command.sh $? "$build/one.log"
+case $build in *asan*) ;; *)
+    sh tests/core/lanes.sh "$build" "${CC:-gcc}" > "$build/one.log" 2>&1
+    count tests/core/lanes.sh $? "$build/one.log"
+    ;;
+esac
 # What is drawn, the name of the table's file, its options.
 table() {
     what=$1 file=$build/$2.txt

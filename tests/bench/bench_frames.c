@@ -1,10 +1,12 @@
 /* bench_frames.c - what shadows cost in a frame: one row of a CSV for each number of triangles, casters, lights and size.
  *
- *     bench_frames [--quick] [TRIANGLES CASTERS LIGHTS WIDTHxHEIGHT]
+ *     bench_frames [--quick]
  *
  * The scene of pile.h, everything moving, untextured Lambert. Each frame is drawn three ways in turn: in one pass with all
  * lights and no shadows; in the plan's passes without volumes; and with them. Times are the process's, all threads (a
- * driver that rasterises on the processor), medians: a remark, of use as ratios within a row. Fragments are counted. */
+ * driver that rasterises on the processor), medians: a remark, of use as ratios within a row. shadow_part is what the
+ * volumes add, in one-pass frames. Fragments of volumes are counted, per pixel of a mask; the columns that follow are the
+ * same without each measure of gn_scene.without, and without all. --quick: three rows. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,13 +16,13 @@
 #include "pile.h"
 #include "platform.h"
 
-enum { FRAMES = 25, WAYS = 3 };
+enum { FRAMES = 25, WAYS = 3, MEASURES = 5 };
+static const unsigned measures[MEASURES] = {0, GN_MEASURE_ENDS, GN_MEASURE_SCISSORS, GN_MEASURE_PATCHES, ~0u};
 
 static const char vertex_source[] = "attribute highp vec3 a_position;\n"
                                     "attribute highp vec3 a_normal;\n"
                                     "uniform highp mat4 u_clip;\n"
-                                    "uniform highp mat4 u_world;\n" GN_GLSL_POSITION
-                                    "varying highp vec3 v_position;\n"
+                                    "uniform highp mat4 u_world;\n" GN_GLSL_POSITION "varying highp vec3 v_position;\n"
                                     "varying highp vec3 v_normal;\n"
                                     "void main()\n"
                                     "{\n"
@@ -204,7 +206,6 @@ static int plan(host *h, int casting)
     h->scene.object_count = h->pile.object_count;
     h->scene.target = h->target;
     h->scene.method = GN_METHOD_STENCIL;
-    h->scene.without = getenv("WITHOUT") ? (unsigned)atoi(getenv("WITHOUT")) : 0;
     size = gn_plan_bound(&h->scene);
     if (size > h->size) {
         free(h->memory);
@@ -285,11 +286,12 @@ static uint64_t count_fragments(host *h)
 static int measure(host *h)
 {
     const double aspect = (double)h->target.width / h->target.height;
-    double ms[WAYS][FRAMES], planning[FRAMES];
-    uint64_t fragments;
-    size_t draws = 0;
+    const uint32_t work = (uint32_t)h->lump.triangle_count * h->pile.side * h->pile.side * h->pile.side;
+    const uint32_t frames = work * h->pile.light_count > 1000000 ? 3 : FRAMES;
+    double ms[WAYS][FRAMES], planning[FRAMES], fragments[MEASURES], mask_pixels;
+    size_t draws = 0, indices;
 
-    for (uint32_t f = 0; f < FRAMES + 2; f++) {
+    for (uint32_t f = 0; f < frames + 2; f++) {
         const uint32_t at = f < 2 ? 0 : f - 2; /* the first two warm up */
         double start;
 
@@ -312,19 +314,27 @@ static int measure(host *h)
         h->gl->glFinish();
         ms[2][at] = now_ms() - start;
     }
-    fragments = count_fragments(h);
-    for (uint32_t r = 0; r < h->plan->record_count; r++) {
-        { const gn_record *q=&h->plan->records[r]; if (getenv("DUMP")) printf("light %u object %u case %d sides %u dark %u light %u patch %u far %d unpatched %d scissor %u %u %u %u\n", q->light, q->object, q->mcguire_case, q->side_count/6, q->dark_cap_count/3, q->light_cap_count/3, q->patch, q->far_end, q->unpatched, q->scissor[0],q->scissor[1],q->scissor[2],q->scissor[3]); }
-        draws += 1u + (h->plan->records[r].turned_cap_count > 0); }
+    for (uint32_t r = 0; r < h->plan->record_count; r++)
+        draws += 1u + (h->plan->records[r].turned_cap_count > 0);
+    indices = h->plan->index_count;
+    mask_pixels = (double)h->target.width * h->target.height * h->pile.light_count;
+    for (int i = 0; i < MEASURES; i++) {
+        h->scene.without = measures[i];
+        if (!plan(h, 1) || !draw_passes(h))
+            return 0;
+        fragments[i] = (double)count_fragments(h) / mask_pixels;
+    }
+    h->scene.without = 0;
     for (int way = 0; way < WAYS; way++)
-        qsort(ms[way], FRAMES, sizeof(double), by_value);
-    qsort(planning, FRAMES, sizeof(double), by_value);
-    printf("%lu,%u,%u,%ux%u,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%lu,%lu\n", (unsigned long)h->lump.triangle_count,
+        qsort(ms[way], frames, sizeof(double), by_value);
+    qsort(planning, frames, sizeof(double), by_value);
+    printf("%lu,%u,%u,%ux%u,%.2f,%.2f,%.2f,%.2f,%.2f,%lu,%lu", (unsigned long)h->lump.triangle_count,
            (unsigned)(h->pile.object_count - 1), (unsigned)h->pile.light_count, (unsigned)h->target.width,
-           (unsigned)h->target.height, ms[0][FRAMES / 2], ms[1][FRAMES / 2], ms[2][FRAMES / 2], planning[FRAMES / 2],
-           (ms[2][FRAMES / 2] - ms[1][FRAMES / 2]) / ms[0][FRAMES / 2],
-           (double)fragments / ((double)h->target.width * h->target.height * h->pile.light_count),
-           (unsigned long)draws, (unsigned long)h->plan->index_count);
+           (unsigned)h->target.height, ms[0][frames / 2], ms[1][frames / 2], ms[2][frames / 2], planning[frames / 2],
+           (ms[2][frames / 2] - ms[1][frames / 2]) / ms[0][frames / 2], (unsigned long)draws, (unsigned long)indices);
+    for (int i = 0; i < MEASURES; i++)
+        printf(",%.2f", fragments[i]);
+    printf("\n");
     fflush(stdout);
     return h->gl->glGetError() == GL_NO_ERROR ? 1 : fail("the GL reports an error");
 }
@@ -374,12 +384,8 @@ int main(int argument_count, char **arguments)
     static const uint32_t sizes[3][2] = {{320, 240}, {640, 480}, {1024, 768}};
     const int quick = argument_count > 1 && strcmp(arguments[1], "--quick") == 0;
 
-    if (argument_count > 1 && !quick)
-        return !run((uint32_t)atoi(arguments[1]), (uint32_t)atoi(arguments[2]), (uint32_t)atoi(arguments[3]),
-                    (uint32_t)atoi(arguments[4]), (uint32_t)atoi(arguments[5]), (uint32_t)atoi(arguments[6]));
-
-    printf("triangles,casters,lights,size,one_pass_ms,same_passes_ms,shadows_ms,plan_ms,shadow_part,fragments_per_mask_pixel,"
-           "draws,indices\n");
+    printf("triangles,casters,lights,size,one_pass_ms,same_passes_ms,shadows_ms,planning_ms,shadow_part,draws,indices,"
+           "fragments,without_ends,without_scissors,without_patches,without_all\n");
     if (quick)
         return !run(43, 44, 1, 1, 640, 480) || !run(43, 44, 2, 2, 640, 480) || !run(16, 16, 3, 4, 640, 480);
     for (int m = 0; m < 3; m++)
