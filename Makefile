@@ -36,7 +36,7 @@ INC_tools      = -D_POSIX_C_SOURCE=200809L $(INC_core) -Igles -Iplatforms -Itool
 INC_tests      = $(INC_tools) -Itests/support $(shell $(PKG_CONFIG) --cflags cmocka)
 INCLUDE        = $(INC_$(firstword $(subst /, ,$<)))
 
-TOOL_LIBS  = $(shell $(PKG_CONFIG) --libs libcjson libpng) -ldl -lm
+TOOL_LIBS  = $(shell $(PKG_CONFIG) --libs libcjson libpng) -lmeshoptimizer -ldl -lm
 TEST_LIBS  = $(shell $(PKG_CONFIG) --libs cmocka) $(TOOL_LIBS)
 
 Q       := $(if $(V),,@)

@@ -29,7 +29,7 @@ static void fill_lanes(const gn_mesh *mesh, uint32_t index)
     for (uint32_t i = 0; i < GNI_CLUSTER; i++)
         c->planes[3][i] = 1e36f; /* of what is no triangle: in no doubt */
     for (uint32_t i = 0; i < GNI_CLUSTER && first + i < mesh->info.triangle_count; i++) {
-        const double *plane = mesh->planes + 4 * (size_t)(first + i);
+        const double *plane = mesh->facing_planes + 4 * (size_t)(first + i);
         const double most = greatest(fabs(plane[0]), greatest(fabs(plane[1]), fabs(plane[2])));
         const double scale = most > 0.0 ? 1.0 / most : 0.0; /* one more rounding, of double: nothing to float's */
         /* bit 8 l + j of a word is lane l of vector 7 - j */
@@ -68,7 +68,7 @@ static void make_leaf(const gn_mesh *mesh, uint32_t index)
 
     memset(n, 0, sizeof *n);
     for (uint32_t i = 0; i < count; i++) {
-        memcpy(normals[i], mesh->planes + 4 * (size_t)(first + i), sizeof normals[i]);
+        memcpy(normals[i], mesh->facing_planes + 4 * (size_t)(first + i), sizeof normals[i]);
         unit(normals[i]); /* of no area: 0, and the cone will be open */
         for (int k = 0; k < 3; k++)
             n->axis[k] += normals[i][k];

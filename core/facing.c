@@ -134,7 +134,7 @@ static void look_closely(const gn_mesh *mesh, uint32_t cluster, const double lig
 {
     *front = *back = 0;
     for (uint32_t i = 0; i < GNI_CLUSTER && cluster * GNI_CLUSTER + i < mesh->info.triangle_count; i++) {
-        const int side = exact_side(mesh->planes + 4 * (size_t)(cluster * GNI_CLUSTER + i), light);
+        const int side = exact_side(mesh->facing_planes + 4 * (size_t)(cluster * GNI_CLUSTER + i), light);
 
         *front |= (uint64_t)(side > 0) << i;
         *back |= (uint64_t)(side < 0) << i;

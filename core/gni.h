@@ -69,6 +69,8 @@ struct gn_mesh {
     uint32_t *order;     /* [triangle_count] the number in the description of each */
     uint32_t *triangles; /* [triangle_count][3] */
     double *planes;      /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
+    double *facing_planes; /* the same, or where edges are welded the sum of each one's group */
+    uint32_t *group_of;    /* NULL, or [triangle_count] the first triangle of each one's group */
     uint32_t *edge_uses; /* [edge_count + 1]: where an edge's uses start */
     uint32_t *uses;
     uint32_t
@@ -117,6 +119,10 @@ void gni_judge_parts(gn_mesh *mesh);
 int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part);
 /* Of those that a point inside sees all of: quickly, and without memory. */
 int gni_part_is_star(const gn_mesh *mesh, const gni_part *part);
+
+/* groups.c: mesh->facing_planes. */
+gn_result gni_make_groups(gn_mesh *mesh, double angle);
+void gni_sum_groups(gn_mesh *mesh);
 
 /* clusters.c */
 gn_result gni_make_clusters(gn_mesh *mesh);

@@ -78,6 +78,9 @@ typedef struct gn_mesh_desc {
     size_t stride;           /* bytes from one vertex to the next [12] */
     const uint32_t *indices; /* [triangle_count][3], borrowed for the call */
     size_t triangle_count;   /* up to GN_MAX_TRIANGLES */
+    /* A choice: neighbours whose normals are within so many radians of another's face the light together, which makes
+     * silhouettes shorter. gn_mesh_info.weld_error says how far a shadow's edge may be off. Less than 1 [0: none do] */
+    double weld_angle;
 } gn_mesh_desc;
 
 #define GN_MAX_TRIANGLES  0x10000000u /* three corners and a sign must fit 32 bits */
@@ -105,6 +108,8 @@ typedef struct gn_mesh_info {
     uint32_t solid_part_count; /* closed, wound alike, not passing through themselves: only their lit triangles cast */
     uint32_t outward_part_count; /* solid parts whose front faces look outward */
     uint32_t chunk_count;
+    double weld_error; /* the greatest length of what faces the light together; 0 without a weld angle. Object space, of the
+                          first shape */
     uint32_t shape;                 /* how often gn_mesh_update() has changed it */
     int planar;                     /* 1: all triangles lie in one plane; 2: and are wound alike */
     const float *positions;         /* [vertex_count][3], welded, less the centre */
@@ -233,6 +238,8 @@ typedef struct gn_object {
     const gn_mesh *mesh; /* borrowed while the plan lives */
     double model[16];    /* object to world; last row 0 0 0 1 */
     unsigned flags;      /* of GN_CASTS, GN_RECEIVES, GN_DRAWN, GN_DRAWN_BACKS */
+    double error;        /* how far the surface of what it stands for may be from it: of a proxy that casts in the place of
+                            something finer. Object space; the plan says what comes of it [0] */
 } gn_object;
 
 /* gn_facing() and gn_casting() for an object in the world: [triangle_count]. A model matrix without inverse, which
@@ -410,6 +417,7 @@ typedef struct gn_plan_light {
         scissor[4]; /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound; all 0: the
                                  light is skipped */
     double depth_bounds[2];   /* window depths of what it lights; 0, 1: no bound */
+    double caster_error;      /* how far a shadow's edge may be off where it starts: by proxies' errors and welded edges */
     double light_moved;       /* since the oldest shadow from the cache was found, as its caster sees it */
     double possible_error;    /* the most that skipping it takes from a pixel; 0 unless it is GN_SKIP_UNIMPORTANT */
     uint32_t casters;         /* with a volume, or a projection on a patch */

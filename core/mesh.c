@@ -18,6 +18,9 @@ void gn_mesh_destroy(gn_mesh *mesh)
     gni_free(context, mesh->first_given);
     gni_free(context, mesh->order);
     gni_free(context, mesh->triangles);
+    if (mesh->facing_planes != mesh->planes)
+        gni_free(context, mesh->facing_planes);
+    gni_free(context, mesh->group_of);
     gni_free(context, mesh->planes);
     gni_free(context, mesh->edge_uses);
     gni_free(context, mesh->uses);
@@ -159,6 +162,8 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
         return gn_fail(context, GN_E_ARG, "gn_mesh_create: %lu triangles, %lu vertices: at most %lu triangles",
                        (unsigned long)desc->triangle_count, (unsigned long)desc->vertex_count,
                        (unsigned long)GN_MAX_TRIANGLES);
+    if (!(desc->weld_angle >= 0.0 && desc->weld_angle < 1.0))
+        return gn_fail(context, GN_E_ARG, "gn_mesh_create: edges are welded by 0 to 1 radian (%g)", desc->weld_angle);
     mesh = gni_alloc(context, 1, sizeof *mesh);
     if (!mesh)
         return gn_fail(context, GN_E_MEMORY, "gn_mesh_create: no memory for a mesh");
@@ -175,6 +180,8 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
         result = gni_make_parts(mesh);
     if (result == GN_OK)
         result = gni_make_chunks(mesh);
+    if (result == GN_OK)
+        result = gni_make_groups(mesh, desc->weld_angle);
     if (result == GN_OK)
         result = gni_make_clusters(mesh);
     if (result == GN_OK)

@@ -100,7 +100,9 @@ static void put_light(gni_text *w, const gn_plan *plan, uint32_t light)
     put_number(w, l->depth_bounds[0]);
     gni_put(w, ", ");
     put_number(w, l->depth_bounds[1]);
-    gni_put(w, "], \"light_moved\": ");
+    gni_put(w, "], \"caster_error\": ");
+    put_number(w, l->caster_error);
+    gni_put(w, ", \"light_moved\": ");
     put_number(w, l->light_moved);
     gni_put(w, ", \"possible_error\": ");
     put_number(w, l->possible_error);

@@ -18,6 +18,7 @@ need pkg-config command -v pkg-config
 need python3 command -v python3
 need libcjson-dev header cjson/cJSON.h
 need libpng-dev header png.h
+need libmeshoptimizer-dev header meshoptimizer.h
 need libcmocka-dev test -e /usr/include/cmocka.h
 need libgles-dev header GLES2/gl2.h
 need libegl-dev header EGL/egl.h

@@ -30,6 +30,8 @@ const char help_render[] =
     "  --soft N:RADIUS       area lights: N jittered lights within RADIUS in place of each [1:0]\n"
     "  --importance E        leaves out lights that add at most E of full light to any pixel [0]\n"
     "  --blend-once          of coincident surfaces only the first is lit by each light\n"
+    "  --weld-angle DEG      neighbouring triangles within DEG degrees face a light together [0]\n"
+    "  --proxy TRIANGLES     what has more triangles casts by a mesh of about so many [each by itself]\n"
     "  --update-every N      finds a shadow anew in every N-th frame only [1]\n"
     "  --update-distance D   or when its light has moved by D as its caster sees it, in scene units [0]\n"
     "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
@@ -43,7 +45,8 @@ const char help_render[] =
 typedef struct job {
     const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report, *soft;
     long size[2], frames, soft_count;
-    long update_every;
+    long update_every, proxy;
+    double weld_angle;
     double spin, exposure, importance, soft_radius, update_distance;
     int explain, one_sided, blend_once;
     gn_method method;
@@ -296,7 +299,8 @@ static int run(const job *j, const char *path)
 {
     const stage_options options = {
         j->platform, (uint32_t)j->size[0],    (uint32_t)j->size[1], j->exposure, 24, 8, j->hide, 0.0,
-        NULL,        (uint32_t)j->soft_count, j->soft_radius,       {(uint32_t)j->update_every, j->update_distance}};
+        NULL,        (uint32_t)j->soft_count, j->soft_radius,       {(uint32_t)j->update_every, j->update_distance},
+        j->weld_angle * 0.017453292519943295, (uint32_t)j->proxy};
     char message[SCENE_MESSAGE] = "";
     measured m;
     scene loaded;
@@ -374,6 +378,8 @@ int command_render(int count, char **arguments)
         {"--exposure", OPTION_NUMBER, &j.exposure, 1e-12, 1e12},
         {"--soft", OPTION_TEXT, &j.soft, 0, 0},
         {"--importance", OPTION_NUMBER, &j.importance, 0, 1e6},
+        {"--weld-angle", OPTION_NUMBER, &j.weld_angle, 0, 57},
+        {"--proxy", OPTION_WHOLE, &j.proxy, 4, 100000000},
         {"--update-every", OPTION_WHOLE, &j.update_every, 1, 1000000},
         {"--update-distance", OPTION_NUMBER, &j.update_distance, 0, 1e12},
         {"--blend-once", OPTION_FLAG, &j.blend_once, 0, 0},

@@ -115,7 +115,7 @@ static int read_model(pile_mesh *m, gn_context *context, const char *path)
     }
     if (f)
         fclose(f);
-    desc = (gn_mesh_desc){m->positions, m->vertex_count, 0, m->indices, m->triangle_count};
+    desc = (gn_mesh_desc){m->positions, m->vertex_count, 0, m->indices, m->triangle_count, 0.0};
     return m->triangle_count && gn_mesh_create(context, &desc, &m->mesh) == GN_OK;
 }
 
@@ -161,7 +161,7 @@ int main(int count, char **arguments)
         double light[4] = {0, 0, 0, 1};
 
         if (step == BUILD) {
-            const gn_mesh_desc desc = {m.positions, m.vertex_count, 0, m.indices, m.triangle_count};
+            const gn_mesh_desc desc = {m.positions, m.vertex_count, 0, m.indices, m.triangle_count, 0.0};
             gn_mesh *mesh;
 
             if (gn_mesh_create(context, &desc, &mesh) == GN_OK)

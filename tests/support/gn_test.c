@@ -119,7 +119,7 @@ void test_add_torus(test_mesh *m, float radius, float tube_radius, uint32_t arou
 
 gn_mesh_desc test_desc(const test_mesh *m)
 {
-    const gn_mesh_desc desc = {m->positions, m->vertex_count, 0, m->indices, m->triangle_count};
+    const gn_mesh_desc desc = {m->positions, m->vertex_count, 0, m->indices, m->triangle_count, 0.0};
 
     return desc;
 }

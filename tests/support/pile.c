@@ -30,7 +30,7 @@ static void add(pile_mesh *m, uint32_t a, uint32_t b, uint32_t c)
 
 static int finish(pile_mesh *m, gn_context *context)
 {
-    const gn_mesh_desc desc = {m->positions, m->vertex_count, 0, m->indices, m->triangle_count};
+    const gn_mesh_desc desc = {m->positions, m->vertex_count, 0, m->indices, m->triangle_count, 0.0};
 
     for (size_t t = 0; t < m->triangle_count; t++) {
         const uint32_t *c = m->indices + 3 * t;

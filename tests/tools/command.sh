@@ -148,6 +148,11 @@ refuses 2 "(0:1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --soft 0:1
 refuses 2 "(4:-1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --soft 4:-1
 refuses 2 "a mask is of one light" render $scenes/cube_point.gltf --mask-dir "$tmp/x" --soft 4:1
 refuses 2 "(-1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --importance -1
+ok "welded edges say what may be off" sh -c "$gnomon render $scenes/pile_of_8.gltf --size 64x48 --weld-angle 10 --explain | grep -q 'may be off by up to 0'"
+ok "proxies too" sh -c "$gnomon render $scenes/pile_of_8.gltf --size 64x48 --proxy 500 --explain | grep -q 'may be off by up to 0'"
+ok "a proxy has fewer indices" sh -c "$gnomon render $scenes/pile_of_8.gltf --size 64x48 --proxy 500 --report $tmp/proxy.json -o $tmp/proxy.png && [ \$(sed -n 's/.*\"indices\": *\([0-9]*\).*/\1/p' $tmp/proxy.json | head -1) -lt \$(sed -n 's/.*\"indices\": *\([0-9]*\).*/\1/p' $tmp/lag.json | head -1) ]"
+refuses 2 "(3)" render $scenes/cube_point.gltf -o "$tmp/x.png" --proxy 3
+refuses 2 "(60)" render $scenes/cube_point.gltf -o "$tmp/x.png" --weld-angle 60
 refuses 2 "(0)" render $scenes/cube_point.gltf -o "$tmp/x.png" --update-every 0
 refuses 2 "(-1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --update-distance -1
 ok "what does not move" "$gnomon" render $scenes/pile_of_8.gltf --frames 6 --size 160x120 --report "$tmp/still.json" -o "$tmp/still.png" --plan "$tmp/still-plan.json"

@@ -129,7 +129,7 @@ static double far_of(const scene *s)
 static int draw_masks(const job *j, scene *loaded, int d)
 {
     const stage_options options = {
-        drivers[d].platform, j->width, j->height, 0.0, j->depth_bits, 8, NULL, 0.0, NULL, 0, 0.0, {0, 0.0}};
+        drivers[d].platform, j->width, j->height, 0.0, j->depth_bits, 8, NULL, 0.0, NULL, 0, 0.0, {0, 0.0}, 0.0, 0};
     char message[SCENE_MESSAGE] = "";
     uint8_t *rgba = malloc(4 * pixels_of(j));
     stage *s;

@@ -90,6 +90,8 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
     s->finite_far = options->finite_far;
     s->soft_count = options->soft_count ? options->soft_count : 1;
     s->soft_radius = options->soft_radius;
+    s->weld_angle = options->weld_angle;
+    s->proxy_triangles = options->proxy_triangles;
     s->light_count = (uint32_t)given->light_count * s->soft_count;
     s->brightest = find_brightest(given);
     s->exposure = options->exposure > 0.0 ? options->exposure : default_exposure(s);
@@ -287,6 +289,34 @@ static unsigned flags_of(const stage *s, const scene_instance *instance, const g
     return flags;
 }
 
+size_t stage_drawn_object(const stage *s, size_t instance)
+{
+    const stage_mesh *m = &s->meshes[s->scene->instances[instance].mesh];
+
+    return m->proxy ? s->scene->instance_count + instance : instance;
+}
+
+/* With proxies there are two objects for each instance: the first casts, and is drawn where it is no proxy. */
+static void place_object(stage *s, size_t index, const gn_camera *camera, const stage_wish *wish)
+{
+    const scene_instance *instance = &s->scene->instances[index];
+    const stage_mesh *m = &s->meshes[instance->mesh];
+    gn_object *first = &s->objects[index], *drawn = &s->objects[stage_drawn_object(s, index)];
+
+    for (size_t i = index; i <= index + (s->proxy_triangles ? s->scene->instance_count : 0); i += s->scene->instance_count) {
+        memset(&s->objects[i], 0, sizeof s->objects[i]);
+        s->objects[i].mesh = m->mesh;
+        memcpy(s->objects[i].model, instance->world, sizeof s->objects[i].model);
+    }
+    drawn->flags = flags_of(s, instance, camera, drawn, wish);
+    if (drawn == first)
+        return;
+    first->mesh = m->proxy;
+    first->error = m->proxy_error;
+    first->flags = drawn->flags & GN_CASTS;
+    drawn->flags &= ~(unsigned)GN_CASTS;
+}
+
 /* A light without what bounds it. */
 static void unbind(gn_light *light)
 {
@@ -308,13 +338,8 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
 
     memset(&frame, 0, sizeof frame);
     place_camera(s, &frame.camera);
-    for (size_t i = 0; i < s->scene->instance_count; i++) {
-        const scene_instance *instance = &s->scene->instances[i];
-
-        s->objects[i].mesh = s->meshes[instance->mesh].mesh;
-        memcpy(s->objects[i].model, instance->world, sizeof s->objects[i].model);
-        s->objects[i].flags = flags_of(s, instance, &frame.camera, &s->objects[i], wish);
-    }
+    for (size_t i = 0; i < s->scene->instance_count; i++)
+        place_object(s, i, &frame.camera, wish);
     for (uint32_t i = 0; i < s->light_count; i++) {
         s->planned[i] = s->lights[i];
         if (wish->unbounded)
@@ -323,7 +348,7 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
     frame.lights = s->planned + wish->first_light;
     frame.light_count = wish->light_count;
     frame.objects = s->objects;
-    frame.object_count = (uint32_t)s->scene->instance_count;
+    frame.object_count = (uint32_t)(s->scene->instance_count * (s->proxy_triangles ? 2 : 1));
     frame.target = s->target;
     frame.method = wish->method;
     frame.one_sided = wish->one_sided;

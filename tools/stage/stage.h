@@ -34,7 +34,9 @@ typedef struct stage_batch {
 } stage_batch;
 
 typedef struct stage_mesh {
-    gn_mesh *mesh; /* the solid triangles */
+    gn_mesh *mesh;  /* the solid triangles */
+    gn_mesh *proxy; /* casts in its place, if there is one */
+    double proxy_error;
     GLuint vertices, indices;
     uint16_t *index_copy; /* to pick triangles from */
     stage_batch *batches;
@@ -74,6 +76,8 @@ typedef struct stage {
     double finite_far;      /* as in the options */
     int shader_refused;     /* a surface was left out because the GL refuses its shader */
     gn_shadow_cache *cache;
+    double weld_angle;
+    uint32_t proxy_triangles;
     void *plan_memory;
     size_t plan_size;
     const gn_plan *plan;
@@ -90,6 +94,8 @@ typedef struct stage_options {
     uint32_t soft_count;                                /* lights in place of each; 0: 1 */
     double soft_radius;
     gn_shadow_cache_desc cache;
+    double weld_angle;        /* of meshes: see gn_mesh_desc */
+    uint32_t proxy_triangles; /* what has more casts by a mesh of about so many; 0: all cast themselves */
 } stage_options;
 
 /* Opens a context and uploads the scene. Returns 0, or an exit status of the command (1 or 3) with a message; *out
@@ -156,6 +162,11 @@ typedef struct stage_look {
 
 void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look);
 int stage_upload(stage *s, char message[SCENE_MESSAGE]); /* stage_upload.c */
+/* stage_proxy.c: 1, also where it makes none; 0 when the library or memory refuses. */
+int stage_make_proxy(stage *s, const scene_mesh *m, stage_mesh *out);
+/* Which object of the plan is drawn for an instance: with a proxy another than the one that casts, which has its
+ * number. */
+size_t stage_drawn_object(const stage *s, size_t instance);
 void stage_release(stage *s);                            /* stage_upload.c */
 stage_program *stage_use(stage *s, unsigned kind);       /* stage_program.c; NULL when a driver refuses it */
 stage_program *stage_use_lines(stage *s);

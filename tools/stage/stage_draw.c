@@ -149,10 +149,11 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
 {
     const scene_instance *instance = &s->scene->instances[index];
     const stage_mesh *m = &s->meshes[instance->mesh];
-    const gn_plan_object *object = &s->plan->objects[index];
+    const size_t drawn = stage_drawn_object(s, index);
+    const gn_plan_object *object = &s->plan->objects[drawn];
 
     if (look->facing_light >= 0)
-        gn_object_facing(&s->objects[index], &s->lights[look->facing_light], s->facing);
+        gn_object_facing(&s->objects[drawn], &s->lights[look->facing_light], s->facing);
     s->gl->glFrontFace(object->mirrored ? GL_CW : GL_CCW);
     for (size_t b = 0; b < m->batch_count; b++) {
         const scene_material *material = &s->scene->materials[m->batches[b].material];
@@ -232,6 +233,11 @@ static void draw_blended(stage *s, const stage_look *look)
     s->gl->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
+static int is_lit(const stage *s, int light, size_t instance)
+{
+    return s->plan->casters[(size_t)light * s->plan->object_count + stage_drawn_object(s, instance)].is_lit;
+}
+
 void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look)
 {
     const size_t count = s->scene->instance_count;
@@ -242,6 +248,6 @@ void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look)
     }
     for (size_t i = 0; i < count; i++)
         if ((look->receivers < 0 || look->receivers == s->scene->instances[i].receives) &&
-            (look->lit_by < 0 || s->plan->casters[(size_t)look->lit_by * count + i].is_lit))
+            (look->lit_by < 0 || is_lit(s, look->lit_by, i)))
             draw_object(s, i, pass, look);
 }

@@ -79,11 +79,12 @@ static void send(const gn_gl *gl, GLenum target, GLuint *name, const void *data,
 static int upload_mesh(stage *s, const scene_mesh *m, stage_mesh *out, char message[SCENE_MESSAGE])
 {
     const size_t corners = 3 * (size_t)m->triangle_count;
-    const gn_mesh_desc desc = {m->positions, m->vertex_count, 0, m->indices, m->solid_triangle_count};
+    const gn_mesh_desc desc = {m->positions, m->vertex_count, 0, m->indices, m->solid_triangle_count, s->weld_angle};
     packer p;
     int ok;
 
-    if (gn_mesh_create(s->context, &desc, &out->mesh) != GN_OK || gn_gles_upload(s->gles, out->mesh) != GN_OK) {
+    if (gn_mesh_create(s->context, &desc, &out->mesh) != GN_OK || gn_gles_upload(s->gles, out->mesh) != GN_OK ||
+        !stage_make_proxy(s, m, out)) {
         snprintf(message, SCENE_MESSAGE, "stage: %s", gn_message(s->context));
         return 0;
     }
@@ -135,7 +136,7 @@ int stage_upload(stage *s, char message[SCENE_MESSAGE])
 
     s->meshes = calloc(from->mesh_count + 1, sizeof *s->meshes);
     s->textures = calloc(from->texture_count + 1, sizeof *s->textures);
-    s->objects = calloc(from->instance_count + 1, sizeof *s->objects);
+    s->objects = calloc(2 * from->instance_count + 1, sizeof *s->objects);
     s->lights = calloc((size_t)s->light_count + 1, sizeof *s->lights);
     s->planned = calloc((size_t)s->light_count + 1, sizeof *s->planned);
     s->shading = calloc((size_t)s->light_count + 1, sizeof *s->shading);
@@ -176,6 +177,8 @@ void stage_release(stage *s)
         }
         gn_gles_unload(s->gles, m->mesh);
         gn_mesh_destroy(m->mesh);
+        gn_gles_unload(s->gles, m->proxy);
+        gn_mesh_destroy(m->proxy);
         free(m->index_copy);
         free(m->batches);
     }
