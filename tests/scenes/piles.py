@@ -22,7 +22,7 @@ def pile(s, side, lamps, sectors, rings):
     mesh = s.mesh(smooth(blob(lump, sectors, rings)), s.material(STONE))
     s.thing(floor(half), s.material(SAND, 0.95))
     for i in range(side ** 3):
-        s.node(mesh=mesh, turn=turn_y(47.0 * i),
+        s.node(mesh=mesh, turn=turn_y(39.0 * i),
                at=(1.5 * (i % side) - middle, 0.9 + 1.5 * (i // side % side), 1.5 * (i // side // side) - middle))
     for i in range(lamps):
         angle, radius = 2 * math.pi * i / lamps + 0.3, 0.8 * extent + 1.6
