@@ -276,10 +276,16 @@ void gni_find_rectangle(uint32_t out[4], const gni_hull *hull, const gn_camera *
         memset(out, 0, 4 * sizeof *out);
 }
 
-void gni_find_ball_rectangle(uint32_t out[4], const double ball[4], const gn_camera *camera, const gn_target *target)
+void gni_find_balls_rectangle(uint32_t out[4], const double a[4], const double b[4], const gn_camera *camera,
+                              const gn_target *target)
 {
-    const patch p = project_sphere(ball, ball[3], camera);
+    const patch q = project_sphere(b, b[3], camera);
+    patch p = project_sphere(a, a[3], camera);
 
+    for (int i = 0; i < 2; i++) {
+        p.low[i] = fmin(p.low[i], q.low[i]);
+        p.high[i] = fmax(p.high[i], q.high[i]);
+    }
     if (!find_pixels(out, &p, camera, target))
         memset(out, 0, 4 * sizeof *out);
 }

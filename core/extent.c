@@ -133,23 +133,26 @@ static double length_to(const double normal[3], double highest, double lowest, c
     return (from_end / gap - 1.0) * (sqrt(gni_dot(spoke, spoke)) + ball[3]);
 }
 
-/* The caster's box and its end. */
-static void ended_hull(gni_hull *out, const gni_extent *e, const gni_hull *box, const double light[4])
+/* The caster's box and its end; the volume stays without end where a corner of the box, which is no vertex, has none. */
+static void ended_hull(gni_hull *volume, const gni_extent *e, const gni_hull *box, const double light[4])
 {
+    const double of_light = gni_dot(e->end_plane, light) + e->end_plane[3] * light[3];
+    gni_hull out = *box;
     double extrusion[16];
 
     gni_extrusion(extrusion, light, e->end_plane);
-    *out = *box;
-    out->point_count = 16;
+    out.point_count = 16;
     for (int i = 0; i < 8; i++) {
         const double *p = box->points[i];
-        const double w = gni_dot(e->end_plane, light) + e->end_plane[3] * light[3] -
-                         light[3] * (gni_dot(e->end_plane, p) + e->end_plane[3]);
+        const double w = of_light - light[3] * (gni_dot(e->end_plane, p) + e->end_plane[3]);
 
-        gn_mat4_transform(out->points[8 + i], extrusion, p, 1.0);
+        if (!(w > of_light / (2.0 * MOST)))
+            return;
+        gn_mat4_transform(out.points[8 + i], extrusion, p, 1.0);
         for (int k = 0; k < 3; k++)
-            out->points[8 + i][k] /= w;
+            out.points[8 + i][k] /= w;
     }
+    *volume = out;
 }
 
 static void choose_end(gni_extent *e, const gni_draft *d, uint32_t object)
@@ -189,21 +192,18 @@ static void choose_end(gni_extent *e, const gni_draft *d, uint32_t object)
 static int find_moved_image(uint32_t out[4], const gni_draft *d, uint32_t object, double from, double to)
 {
     const double *light = d->bounds.light, *ball = d->balls[object], sun = sqrt(gni_dot(light, light));
+    double moved[2][4];
 
-    memset(out, 0, 4 * sizeof *out);
     for (int i = 0; i < 2; i++) {
         const double move = i ? to : from;
-        double moved[4];
-        uint32_t of_ball[4];
 
-        moved[3] = light[3] == 0.0 ? ball[3] : ball[3] * move;
+        moved[i][3] = light[3] == 0.0 ? ball[3] : ball[3] * move;
         for (int k = 0; k < 3; k++)
-            moved[k] = light[3] == 0.0 ? ball[k] - move * light[k] / sun : light[k] + move * (ball[k] - light[k]);
-        if (-moved[2] - moved[3] < d->scene->camera.znear)
+            moved[i][k] = light[3] == 0.0 ? ball[k] - move * light[k] / sun : light[k] + move * (ball[k] - light[k]);
+        if (-moved[i][2] - moved[i][3] < d->scene->camera.znear)
             return 0;
-        gni_find_ball_rectangle(of_ball, moved, &d->scene->camera, &d->scene->target);
-        gni_join_rectangles(out, of_ball);
     }
+    gni_find_balls_rectangle(out, moved[0], moved[1], &d->scene->camera, &d->scene->target);
     return 1;
 }
 
@@ -241,7 +241,7 @@ int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull 
     memcpy(e->end_image, e->image, sizeof e->image);
     if (e->is_ended && find_moved_image(of_ball, d, object, e->moves[0], e->moves[1]))
         gni_meet_rectangles(e->end_image, of_ball);
-    if (e->is_ended) {
+    if (e->is_ended && volume->direction_count == 0) {
         gni_hull end = *volume;
 
         end.point_count -= 8;

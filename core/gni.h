@@ -366,8 +366,9 @@ typedef struct gni_bounds {
 
 /* Pixels in which the body may be seen, and one more on each side: x, y, width, height; all 0 for none. */
 void gni_find_rectangle(uint32_t out[4], const gni_hull *hull, const gn_camera *camera, const gn_target *target);
-/* The same of a ball: centre, radius. */
-void gni_find_ball_rectangle(uint32_t out[4], const double ball[4], const gn_camera *camera, const gn_target *target);
+/* The same of two balls (centre, radius) and all that is between them; both before the near plane, or one and the same. */
+void gni_find_balls_rectangle(uint32_t out[4], const double a[4], const double b[4], const gn_camera *camera,
+                              const gn_target *target);
 /* Of a light that no bound is known of, or asked for. */
 void gni_no_bounds(gni_bounds *out, const gn_scene *scene, const double light[4]);
 /* view: from world to view space. */

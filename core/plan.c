@@ -276,7 +276,7 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
         gni_box_hull(&d->boxes[i], &s->objects[i].mesh->info, model_view);
         gni_find_ball(d->balls[i], &d->boxes[i], s->objects[i].mesh, model_view);
         gni_find_rectangle(d->rectangles[i], &d->boxes[i], &s->camera, &s->target);
-        gni_find_ball_rectangle(of_ball, d->balls[i], &s->camera, &s->target);
+        gni_find_balls_rectangle(of_ball, d->balls[i], d->balls[i], &s->camera, &s->target);
         gni_meet_rectangles(d->rectangles[i], of_ball);
         d->receivers_are_known |= (s->objects[i].flags & GN_RECEIVES) != 0;
     }

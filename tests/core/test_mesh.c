@@ -171,7 +171,7 @@ static void chunks_reach_everything(void **state)
     const uint32_t side = 300; /* 90,000 vertices */
     float *positions = malloc((size_t)side * side * 3 * sizeof *positions);
     uint32_t *indices = malloc((size_t)(side - 1) * (side - 1) * 6 * sizeof *indices);
-    gn_mesh_desc desc = {positions, (size_t)side * side, 0, indices, 0};
+    gn_mesh_desc desc = {positions, (size_t)side * side, 0, indices, 0, 0.0};
     const gn_mesh_info *info;
     uint32_t triangles = 0;
     gn_mesh *mesh;
