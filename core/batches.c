@@ -3,7 +3,8 @@
  * A count of n bits that wraps tells 2^n - 1 volumes from none; 256 around a point look like none. Whether so many can
  * lie around one is asked in steps, each dearer than the one before: how many triangles cast at all; half the number of
  * silhouette edges, since as the light sees it a line over a point with L layers crosses L of them on its way in and L
- * on its way out; the same for a line swept over light space (sweep.c); boxes in cells of light space; triangles and
+ * on its way out; the same for a line swept over light space (sweep.c); boxes in cells of light space, each with as many
+ * layers as its own sweep says; triangles and
  * silhouettes in those; and at last in parts of cells. Most scenes end at the first three.
  *
  * Where they do not, one bit becomes a flag and the rest counts in batches; between two batches what is counted is
@@ -360,14 +361,20 @@ int gni_layers_fit(gni_draft *d, uint32_t limit, uint32_t first_record)
         about->layers = swept;
         return 1;
     }
-    if (d->uses_patches) /* what follows does not know them */
-        return 0;
+    for (uint32_t i = 0; i < d->scene->object_count; i++)
+        if (d->is_in[i] & GNI_IN_CAST) {
+            const uint32_t own = gni_sweep_caster(d, first_record, i);
+
+            d->cheap_of[i] = own < d->cheap_of[i] ? own : d->cheap_of[i];
+        }
     gni_fit_cells(&l->cells, d->boxes, d->is_in, d->scene->object_count, d->bounds.light);
     memset(&l->batch, 0, sizeof l->batch);
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (d->is_in[i] & GNI_IN_CAST)
             gni_cells_add_box(&l->cells, &l->batch, &d->boxes[i], d->cheap_of[i]);
     about->layers = gni_most_layers(&l->cells, &l->batch, NULL);
+    if (about->layers > limit && d->uses_patches) /* what follows does not know them */
+        return 0;
     if (about->layers > limit)
         about->layers = measure_all(d, &l->cells, &l->batch);
     if (about->layers > limit)

@@ -81,7 +81,8 @@ void gni_start_cache(gn_shadow_cache *cache, const gn_scene *scene)
     if (cache->object_count != scene->object_count) { /* slots mean other pairs now */
         cache->object_count = scene->object_count;
         drop_all(cache);
-        memset(cache->slots, 0, cache->slot_count * sizeof *cache->slots);
+        if (cache->slots)
+            memset(cache->slots, 0, cache->slot_count * sizeof *cache->slots);
     }
     grow_slots(cache, (uint32_t)needed);
     if (cache->wanted > cache->capacity) {

@@ -21,7 +21,7 @@ typedef struct gni_grid {
     uint16_t layers[GNI_CELLS];
 } gni_grid;
 
-#define GNI_BINS 4096 /* of sweep.c */
+#define GNI_BINS 16384 /* of sweep.c */
 
 #define GNI_MOST_ZOOMS 32 /* each costs as much as a look at all cells */
 
@@ -275,6 +275,8 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *volume, const gni_casti
 
 /* sweep.c: no point has more layers of the records from first_record on than this; UINT32_MAX where that is not known. */
 uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record);
+/* The same of one caster's. */
+uint32_t gni_sweep_caster(gni_draft *d, uint32_t first_record, uint32_t object);
 
 /* batches.c: the same, cut so that each piece keeps within the bits, and folded before the batch would not. */
 void gni_add_batched(gni_draft *d, const gni_volume *volume, const gni_casting *casting);

@@ -12,6 +12,7 @@
 #include <string.h>
 
 #define PASSES 64
+#define WAYS   4 /* in which the lines run: where a silhouette runs along them they cross much of it */
 #define ROOM   0.01 /* of a corner's distance: so far before the plane through the light it must lie */
 #define LOOSE  1e-3 /* of a bin: rounding stays inside */
 
@@ -20,14 +21,15 @@ typedef struct bins {
     double along[4], depth[4];
 } bins;
 
-static int is_caster(const gni_draft *d, uint32_t object)
+/* only: one object, or GNI_NONE for all that cast. */
+static int is_caster(const gni_draft *d, uint32_t object, uint32_t only)
 {
-    return d->is_in[object] & GNI_IN_CAST;
+    return d->is_in[object] & GNI_IN_CAST && (only == GNI_NONE || only == object);
 }
 
 /* A direction from the light before which all casters lie: their mean one, turned towards any corner that lies behind
  * until none does (the perceptron: it ends where there is such a direction with room to spare). */
-static int find_axis(const gni_draft *d, double axis[3])
+static int find_axis(const gni_draft *d, uint32_t only, double axis[3])
 {
     const double *light = d->bounds.light;
 
@@ -37,7 +39,7 @@ static int find_axis(const gni_draft *d, double axis[3])
         int turned = 0;
 
         for (uint32_t i = 0; i < d->scene->object_count; i++)
-            for (int corner = 0; corner < 8 && is_caster(d, i); corner++) {
+            for (int corner = 0; corner < 8 && is_caster(d, i, only); corner++) {
                 double v[3], length;
 
                 for (int k = 0; k < 3; k++)
@@ -55,16 +57,19 @@ static int find_axis(const gni_draft *d, double axis[3])
     return light[3] == 0.0;
 }
 
-static int fit_bins(const gni_draft *d, bins *b)
+/* turn: of the lines, about the direction from the light. */
+static int fit_bins(const gni_draft *d, uint32_t only, double turn, bins *b)
 {
     const double *light = d->bounds.light;
     double axis[3], axes[3][3], low = INFINITY, high = -INFINITY;
 
-    if (!find_axis(d, axis) || !(gni_dot(axis, axis) > 0.0))
+    if (!find_axis(d, only, axis) || !(gni_dot(axis, axis) > 0.0))
         return 0;
     gni_make_axes(axes, axis);
+    for (int k = 0; k < 3; k++)
+        axes[0][k] = cos(turn) * axes[0][k] + sin(turn) * axes[1][k];
     for (uint32_t i = 0; i < d->scene->object_count; i++)
-        for (int corner = 0; corner < 8 && is_caster(d, i); corner++) {
+        for (int corner = 0; corner < 8 && is_caster(d, i, only); corner++) {
             double v[3], depth;
 
             for (int k = 0; k < 3; k++)
@@ -144,20 +149,37 @@ static int add_record(const gni_draft *d, const gn_record *r, const bins *in_vie
     return all_fit;
 }
 
-uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record)
+static uint32_t sweep(gni_draft *d, uint32_t first_record, uint32_t only, double turn)
 {
     int32_t *const differences = d->layers->bins, crossed = 0, most = 0;
     bins b;
 
-    if (!fit_bins(d, &b))
+    if (!fit_bins(d, only, turn, &b))
         return UINT32_MAX;
     memset(d->layers->bins, 0, sizeof d->layers->bins);
     for (uint32_t i = first_record; i < d->plan->record_count; i++)
-        if (!add_record(d, &d->records[i], &b, differences))
+        if ((only == GNI_NONE || d->records[i].object == only) && !add_record(d, &d->records[i], &b, differences))
             return UINT32_MAX;
     for (int i = 0; i < GNI_BINS; i++) {
         crossed += differences[i];
         most = crossed > most ? crossed : most;
     }
     return (uint32_t)most / 2;
+}
+
+uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record)
+{
+    return sweep(d, first_record, GNI_NONE, 0.0);
+}
+
+uint32_t gni_sweep_caster(gni_draft *d, uint32_t first_record, uint32_t object)
+{
+    uint32_t least = UINT32_MAX;
+
+    for (int way = 0; way < WAYS; way++) {
+        const uint32_t layers = sweep(d, first_record, object, 3.141592653589793 * way / WAYS);
+
+        least = layers < least ? layers : least;
+    }
+    return least;
 }
