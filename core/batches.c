@@ -3,9 +3,9 @@
  * A count of n bits that wraps tells 2^n - 1 volumes from none; 256 around a point look like none. Whether so many can
  * lie around one is asked in steps, each dearer than the one before: how many triangles cast at all; half the number of
  * silhouette edges, since as the light sees it a line over a point with L layers crosses L of them on its way in and L
- * on its way out; the same for a line swept over light space (sweep.c); boxes in cells of light space, each with as many
- * layers as its own sweep says; triangles and
- * silhouettes in those; and at last in parts of cells. Most scenes end at the first three.
+ * on its way out; the same for a line swept over light space (sweep.c); boxes in cells of light space, each with as
+ * many layers as its own sweep says; triangles and silhouettes in those; and at last in parts of cells. Most scenes end
+ * at the first three.
  *
  * Where they do not, one bit becomes a flag and the rest counts in batches; between two batches what is counted is
  * folded into the flag (DESIGN.md, decision 10). A caster that alone is too much is cut into chains: triangles that
@@ -72,7 +72,8 @@ static uint32_t measure(const cutter *c, const uint32_t *list, uint32_t count)
 {
     gni_layers *l = c->d->layers;
 
-    return gni_measure_triangles(&l->cells, &l->piece, &l->scratch, c->mesh, c->model_view, c->d->piece.of, list, count);
+    return gni_measure_triangles(&l->cells, &l->piece, &l->scratch, c->mesh, c->model_view, c->d->piece.of, list,
+                                 count);
 }
 
 /* The marked piece, which was measured last, into this batch or the next. */

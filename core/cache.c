@@ -2,9 +2,9 @@
  *
  * Which triangles of a caster cast, and where they end, is a matter of the light as the caster's mesh sees it, and of
  * nothing else: not of the camera. So a stream is kept for each light and object with the light's place in the space of
- * the mesh, and used again while that is the same, or, if the caller wants that, nearly or lately the same; then the plan
- * says how far the light has moved meanwhile. A stream is made on the second frame in which nothing has changed, so that
- * what moves costs nothing here; with looser rules at once.
+ * the mesh, and used again while that is the same, or, if the caller wants that, nearly or lately the same; then the
+ * plan says how far the light has moved meanwhile. A stream is made on the second frame in which nothing has changed,
+ * so that what moves costs nothing here; with looser rules at once.
  *
  * A stream has, chunk by chunk, all parts of the volume in the order dark cap, sides, light cap, turned light cap: each
  * record is a run of it. Room is taken from one array from its front; a stream that is made anew keeps its room if it
@@ -128,12 +128,14 @@ gni_slot *gni_find_slot(gni_draft *d, uint32_t object_index)
     double light[4], moved;
     int is_same, is_loose;
 
-    if (!cache || at >= cache->slot_count || d->is_batched || d->region || object->mesh->info.chunk_count > GNI_CACHED_CHUNKS ||
+    if (!cache || at >= cache->slot_count || d->is_batched || d->region ||
+        object->mesh->info.chunk_count > GNI_CACHED_CHUNKS ||
         !gni_light_in_object(&d->scene->lights[d->light], object, light))
         return NULL;
     slot = &cache->slots[at];
     is_loose = cache->desc.update_every > 1 || cache->desc.update_distance > 0.0;
-    is_same = slot->mesh == object->mesh && slot->shape == object->mesh->info.shape && memcmp(slot->light, light, sizeof light) == 0;
+    is_same = slot->mesh == object->mesh && slot->shape == object->mesh->info.shape &&
+              memcmp(slot->light, light, sizeof light) == 0;
     moved = slot->mesh == object->mesh && slot->shape == object->mesh->info.shape
                 ? distance_between(slot->light, light, gni_stretch(object->model))
                 : INFINITY;

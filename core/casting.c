@@ -1,7 +1,7 @@
 /* casting.c - which triangles cast.
  *
- * Facing is decided once per triangle (facing.c), and every part of a volume follows that one bit: whatever rounding does
- * to the bit, the volume stays a closed chain (DESIGN.md, decision 1).
+ * Facing is decided once per triangle (facing.c), and every part of a volume follows that one bit: whatever rounding
+ * does to the bit, the volume stays a closed chain (DESIGN.md, decision 1).
  *
  * Casting follows DESIGN.md, decision 2. Whether a light is inside a solid part is asked only when it is within the
  * part's box, by the solid angle that the part fills as the light sees it; in doubt (the light on the surface) every

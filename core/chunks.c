@@ -41,7 +41,8 @@ static void cut(const cutter *c, gn_chunk *chunks, uint32_t *chunk_count, uint32
     memset(c->chunk_of, 0xff, mesh->info.vertex_count * sizeof *c->chunk_of);
     memset(c->cluster_of, 0xff, mesh->info.vertex_count * sizeof *c->cluster_of);
     for (uint32_t first = 0; first < mesh->info.triangle_count; first += GNI_CLUSTER) {
-        const uint32_t rest = mesh->info.triangle_count - first, end = first + (rest < GNI_CLUSTER ? rest : GNI_CLUSTER);
+        const uint32_t rest = mesh->info.triangle_count - first,
+                       end = first + (rest < GNI_CLUSTER ? rest : GNI_CLUSTER);
 
         if (now.vertex_count + count_fresh(c, chunk, first, end) > GN_CHUNK_VERTICES) {
             if (chunks)

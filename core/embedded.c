@@ -286,8 +286,8 @@ static int nodes_apart(tree *t, uint32_t a, uint32_t b)
 }
 
 /* A part every triangle of which a point sees from the same side, and in whose sight some direction is covered once, is
- * seen in every direction once: so it passes nowhere through itself. (Its projection on a ball around the point covers that
- * everywhere alike.) Cheap, and true of much that is modelled; for what is not it says nothing. */
+ * seen in every direction once: so it passes nowhere through itself. (Its projection on a ball around the point covers
+ * that everywhere alike.) Cheap, and true of much that is modelled; for what is not it says nothing. */
 int gni_part_is_star(const gn_mesh *mesh, const gni_part *part)
 {
     static const double way[3] = {0.5773, 0.4637, 0.6719}; /* across no grid */
@@ -306,8 +306,8 @@ int gni_part_is_star(const gn_mesh *mesh, const gni_part *part)
         const uint32_t *c = mesh->triangles + 3 * (size_t)list[i];
         const double *plane = mesh->planes + 4 * (size_t)list[i];
         const double of_middle = gni_dot(plane, middle) + plane[3];
-        const double doubt = SURE * (fabs(plane[0] * middle[0]) + fabs(plane[1] * middle[1]) + fabs(plane[2] * middle[2]) +
-                                     fabs(plane[3]));
+        const double doubt = SURE * (fabs(plane[0] * middle[0]) + fabs(plane[1] * middle[1]) +
+                                     fabs(plane[2] * middle[2]) + fabs(plane[3]));
         const int own = (of_middle > doubt) - (of_middle < -doubt);
         double v[3][3], normal[3];
         int inside = 1;

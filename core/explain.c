@@ -68,7 +68,8 @@ size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, si
         gni_put(&s, "; more layers than %d bits count: %lu batches of up to %lu layers, folded into a flag",
                 l->stencil.bits + 1, (unsigned long)l->batches, (unsigned long)l->layers);
     if (l->caster_error > 0.0)
-        gni_put(&s, "; proxies or welded edges: a shadow's edge may be off by up to %g where it starts", l->caster_error);
+        gni_put(&s, "; proxies or welded edges: a shadow's edge may be off by up to %g where it starts",
+                l->caster_error);
     if (l->light_moved > 0.0)
         gni_put(&s, "; shadows are kept that were found before the light moved by up to %g as their casters see it",
                 l->light_moved);

@@ -1,16 +1,16 @@
 /* extent.c - how far a caster's volume goes, and where on the image it matters.
  *
  * What a volume may shadow is known before it is drawn: the things that receive, are seen and lit, and are not surely
- * outside it (receivers.c). So it ends on a plane right behind the last of them, and only pixels are counted that lie in
- * the image of one of them and in the volume's own (CC shadow volumes of Lloyd et al. 2004 do this with tighter and dearer
- * bounds).
+ * outside it (receivers.c). So it ends on a plane right behind the last of them, and only pixels are counted that lie
+ * in the image of one of them and in the volume's own (CC shadow volumes of Lloyd et al. 2004 do this with tighter and
+ * dearer bounds).
  *
  * Such an end is exact under these conditions (DESIGN.md, decision 6): the caster lies strictly between the plane and
  * its parallel through the light, so that each ray from the light through it reaches the plane behind all that it could
- * shadow; and the plane lies behind them by more than depth can confuse: several steps of depth at the farthest of them,
- * seen as flat as the eye sees the plane. Four directions are tried for its normal, from the caster's middle to the
- * light and the world's three axes (a floor under a lamp ends right below itself), and the end taken that is nearest.
- * Nothing farther than the light's reach is lit: no end needs to be. */
+ * shadow; and the plane lies behind them by more than depth can confuse: several steps of depth at the farthest of
+ * them, seen as flat as the eye sees the plane. Four directions are tried for its normal, from the caster's middle to
+ * the light and the world's three axes (a floor under a lamp ends right below itself), and the end taken that is
+ * nearest. Nothing farther than the light's reach is lit: no end needs to be. */
 #include "gni_plan.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@
 #define STEPS     8.0    /* of depth behind the last receiver; four are needed */
 #define MOST      1024.0 /* times its distance from the light may a vertex be moved: more loses its direction in floats */
 #define WORTH     (1.0 / 32.0) /* of the target's pixels must a scissor cut off: changing it is not free everywhere */
-#define LEAST_SUN 0.02   /* sine of the angle at which a directional light's rays may meet the end */
+#define LEAST_SUN 0.02         /* sine of the angle at which a directional light's rays may meet the end */
 
 void gni_join_rectangles(uint32_t a[4], const uint32_t b[4])
 {
@@ -77,7 +77,8 @@ void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object)
         e->lowest[n] = fmin(e->lowest[n], lowest_of(e->normals[n], box, d->balls[object]));
     for (int i = 0; i < box->point_count; i++) {
         e->deepest = fmax(e->deepest, -box->points[i][2]);
-        e->greatest = fmax(e->greatest, fmax(fabs(box->points[i][0]), fmax(fabs(box->points[i][1]), fabs(box->points[i][2]))));
+        e->greatest =
+            fmax(e->greatest, fmax(fabs(box->points[i][0]), fmax(fabs(box->points[i][1]), fabs(box->points[i][2]))));
     }
     e->touched++;
 }
@@ -116,7 +117,8 @@ void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object)
 
 /* How much farther from the light the end on a plane is than the caster's farthest corner, at most; INFINITY where the
  * plane cannot end it. highest: of the caster along the normal. */
-static double length_to(const double normal[3], double highest, double lowest, const double ball[4], const double light[4])
+static double length_to(const double normal[3], double highest, double lowest, const double ball[4],
+                        const double light[4])
 {
     const double of_light = gni_dot(normal, light), from_end = of_light - lowest, gap = of_light - highest;
     double spoke[3];
@@ -133,7 +135,8 @@ static double length_to(const double normal[3], double highest, double lowest, c
     return (from_end / gap - 1.0) * (sqrt(gni_dot(spoke, spoke)) + ball[3]);
 }
 
-/* The caster's box and its end; the volume stays without end where a corner of the box, which is no vertex, has none. */
+/* The caster's box and its end; the volume stays without end where a corner of the box, which is no vertex, has
+ * none. */
 static void ended_hull(gni_hull *volume, const gni_extent *e, const gni_hull *box, const double light[4])
 {
     const double of_light = gni_dot(e->end_plane, light) + e->end_plane[3] * light[3];
@@ -178,7 +181,8 @@ static void choose_end(gni_extent *e, const gni_draft *d, uint32_t object)
         length = length_to(normal, highest, lowest, ball, light);
         if (length < best) {
             best = length;
-            e->moves[0] = light[3] == 0.0 ? (own - lowest) / (highest - lowest) * length : (of_light - lowest) / (of_light - own);
+            e->moves[0] =
+                light[3] == 0.0 ? (own - lowest) / (highest - lowest) * length : (of_light - lowest) / (of_light - own);
             e->moves[1] = light[3] == 0.0 ? length : (of_light - lowest) / (of_light - highest);
             memcpy(e->end_plane, normal, 3 * sizeof *normal);
             e->end_plane[3] = -lowest;
@@ -221,7 +225,8 @@ void gni_choose_scissor(uint32_t out[4], const gni_draft *d, const uint32_t imag
     memcpy(out, needed, sizeof drawn);
     gni_meet_rectangles(drawn, light);
     gni_meet_rectangles(out, drawn);
-    if (out[2] > 0 && out[3] > 0 && (area_of(drawn) - area_of(out) < WORTH * area_of(d->whole) || d->scene->without & GN_MEASURE_SCISSORS))
+    if (out[2] > 0 && out[3] > 0 &&
+        (area_of(drawn) - area_of(out) < WORTH * area_of(d->whole) || d->scene->without & GN_MEASURE_SCISSORS))
         memcpy(out, light, sizeof drawn);
 }
 

@@ -1,13 +1,13 @@
 /* facing.c - which triangles show their fronts to a light, and which their backs: a bit each.
  *
  * The truth of a bit is the sign of one expression in double (DESIGN.md, decision 1). It is found in floats, 8 at a
- * time, wherever these are further from 0 than they can be wrong; the few others are asked in double. So the bits are the
- * same whatever floats do, on any processor: with fused multiply-add or without, in vectors or one by one.
+ * time, wherever these are further from 0 than they can be wrong; the few others are asked in double. So the bits are
+ * the same whatever floats do, on any processor: with fused multiply-add or without, in vectors or one by one.
  *
- * The bound: plane and light are rounded to float (two relative errors of 2^-24), multiplied (one), and summed (three at
- * most): under 7 * 2^-24 of the sum of the terms' magnitudes. Normals are scaled below 1 in every component, so that this
- * sum is at most |x| + |y| + |z| of the light and the greatest distance of the cluster's planes. 2^-21 is 8 * 2^-24: the
- * rest is room for the double's own rounding.
+ * The bound: plane and light are rounded to float (two relative errors of 2^-24), multiplied (one), and summed (three
+ * at most): under 7 * 2^-24 of the sum of the terms' magnitudes. Normals are scaled below 1 in every component, so that
+ * this sum is at most |x| + |y| + |z| of the light and the greatest distance of the cluster's planes. 2^-21 is 8 *
+ * 2^-24: the rest is room for the double's own rounding.
  *
  * The tree of clusters.c says of most triangles which way they face without a look. */
 #include "gni.h"
@@ -78,7 +78,7 @@ typedef int32_t masks;
 /* -1 in each lane where the comparison holds, as a compiler's vectors have it. */
 #if LANES > 1
 #define HOLDS(comparison) ((masks)(comparison))
-#define MAGNITUDE(x)      ((floats)((masks)(x) & 0x7fffffff))
+#define MAGNITUDE(x)      ((floats)((masks)(x)&0x7fffffff))
 #else
 #define HOLDS(comparison) (-(comparison))
 #define MAGNITUDE(x)      fabsf(x)
@@ -110,8 +110,7 @@ static int rate(const gni_cluster *c, const float l[4], float bound, uint64_t *f
     for (int first = 0; first < 8; first += LANES) {
         masks bits = {0}, doubt = {0};
 
-        RATE(0) RATE(1) RATE(2) RATE(3) RATE(4) RATE(5) RATE(6) RATE(7)
-        memcpy(lanes[0] + first, &bits, sizeof bits);
+        RATE(0) RATE(1) RATE(2) RATE(3) RATE(4) RATE(5) RATE(6) RATE(7) memcpy(lanes[0] + first, &bits, sizeof bits);
         memcpy(lanes[1] + first, &doubt, sizeof doubt);
     }
     for (int i = 0; i < 8; i++) {

@@ -1,11 +1,12 @@
-/* fan.c - the dark cap as a fan over the silhouette: a triangle an edge (McGuire 2003, section 6), about the mesh's hub.
+/* fan.c - the dark cap as a fan over the silhouette: a triangle an edge (McGuire 2003, section 6), about the mesh's
+ * hub.
  *
  * On a plane a signed fan about any point closes the volume and counts what it encloses, however the silhouette is
- * tangled. At infinity the cap's shape does not matter either, since nothing is behind it; there all directions must lie
- * in an open half of the sphere, so that no triangle spans half of it (DESIGN.md, decision 5; McGuire's trap): the light
- * outside the caster's box is enough, the hub being inside. A fan about a point from which a silhouette turns back
- * covers some pixels three times for once: at infinity, where it would cover the image, it is taken only if all edges
- * run around the hub the same way, and then covers a direction exactly as often as the casting triangles do. */
+ * tangled. At infinity the cap's shape does not matter either, since nothing is behind it; there all directions must
+ * lie in an open half of the sphere, so that no triangle spans half of it (DESIGN.md, decision 5; McGuire's trap): the
+ * light outside the caster's box is enough, the hub being inside. A fan about a point from which a silhouette turns
+ * back covers some pixels three times for once: at infinity, where it would cover the image, it is taken only if all
+ * edges run around the hub the same way, and then covers a direction exactly as often as the casting triangles do. */
 #include "gni.h"
 
 #include <math.h>

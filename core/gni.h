@@ -32,19 +32,19 @@ typedef struct gni_part {
 
 /* facing.c and casting.c: of the triangles of a mesh, in its own order. */
 typedef struct gni_casting {
-    int8_t *of;            /* [triangle_count + 1] 1, -1, 0: as gn_casting() has it; then GNI_UNLIKE */
-    uint64_t *bits;        /* [cluster_count] those that cast */
-    uint64_t *spare;       /* [cluster_count] of backs, while facing is looked at */
-    int is_plain;          /* all that cast are turned alike, and of closed parts: clusters that cast whole have no
+    int8_t *of;         /* [triangle_count + 1] 1, -1, 0: as gn_casting() has it; then GNI_UNLIKE */
+    uint64_t *bits;     /* [cluster_count] those that cast */
+    uint64_t *spare;    /* [cluster_count] of backs, while facing is looked at */
+    int is_plain;       /* all that cast are turned alike, and of closed parts: clusters that cast whole have no
                               silhouette inside */
-    uint32_t count;        /* of those that cast */
-    uint32_t looked_at;    /* triangles whose facing was computed: the others were known by their clusters */
+    uint32_t count;     /* of those that cast */
+    uint32_t looked_at; /* triangles whose facing was computed: the others were known by their clusters */
 } gni_casting;
 
 /* clusters.c */
-#define GNI_CLUSTER 64u         /* triangles: a bit each in a word */
-#define GNI_UNLIKE  2   /* the casting of what is no triangle: like none */
-#define GNI_MOST_LEVELS 9       /* of eights: GN_MAX_TRIANGLES in clusters */
+#define GNI_CLUSTER     64u /* triangles: a bit each in a word */
+#define GNI_UNLIKE      2   /* the casting of what is no triangle: like none */
+#define GNI_MOST_LEVELS 9   /* of eights: GN_MAX_TRIANGLES in clusters */
 
 typedef struct gni_cluster {
     float planes[4][64]; /* of the triangle of bit 8 l + j in slot 8 (7 - j) + l; normals' components below 1 */
@@ -61,20 +61,20 @@ typedef struct gni_node {
 struct gn_mesh {
     gn_context *context;
     gn_mesh_info info;
-    float *positions;    /* [vertex_count][3] */
-    uint32_t *given;     /* [triangle_count][3], as described */
-    uint32_t *welded;    /* [given_count] the vertex that each one described has become; GNI_NONE of those unused */
+    float *positions; /* [vertex_count][3] */
+    uint32_t *given;  /* [triangle_count][3], as described */
+    uint32_t *welded; /* [given_count] the vertex that each one described has become; GNI_NONE of those unused */
     uint32_t given_count;
     uint32_t *first_given; /* [vertex_count] scratch of update.c */
-    uint32_t *order;     /* [triangle_count] the number in the description of each */
-    uint32_t *triangles; /* [triangle_count][3] */
-    double *planes;      /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
+    uint32_t *order;       /* [triangle_count] the number in the description of each */
+    uint32_t *triangles;   /* [triangle_count][3] */
+    double *planes;        /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
     double *facing_planes; /* the same, or where edges are welded the sum of each one's group */
     uint32_t *group_of;    /* NULL, or [triangle_count] the first triangle of each one's group */
-    uint32_t *edge_uses; /* [edge_count + 1]: where an edge's uses start */
+    uint32_t *edge_uses;   /* [edge_count + 1]: where an edge's uses start */
     uint32_t *uses;
     uint32_t
-        *edge_of; /* [triangle_count][3]: the edge from each corner to the next; GNI_NONE of degenerate triangles */
+        *edge_of;     /* [triangle_count][3]: the edge from each corner to the next; GNI_NONE of degenerate triangles */
     uint32_t *across; /* [triangle_count][3]: the triangle beyond that edge, if the two alone share it as neighbours do;
                          else triangle_count */
     gni_cluster *clusters;
@@ -84,15 +84,16 @@ struct gn_mesh {
     uint32_t *border_starts; /* [cluster_count + 1] in borders */
     uint8_t *borders;        /* corners, counted in their cluster, whose edge is not between two triangles of it */
     gni_casting scratch;     /* for the public functions of casting.c */
-    uint32_t largest;      /* the triangle of the largest area */
-    double radius;         /* of a ball about the hub */
+    uint32_t largest;        /* the triangle of the largest area */
+    double radius;           /* of a ball about the hub */
     double longest_edge;
     gni_part *parts;
     uint32_t *part_triangles; /* sorted by part; degenerate triangles are in none */
     uint32_t part_triangle_count;
     gn_chunk *chunks;
     uint32_t *chunk_vertices;
-    uint16_t *corners; /* [triangle_count][3]: twice the index in the chunk, that of the near vertex; one more follows */
+    uint16_t
+        *corners; /* [triangle_count][3]: twice the index in the chunk, that of the near vertex; one more follows */
 };
 
 /* weld.c: positions less the centre, and the triangles' indices into them. */
@@ -366,7 +367,8 @@ typedef struct gni_bounds {
 
 /* Pixels in which the body may be seen, and one more on each side: x, y, width, height; all 0 for none. */
 void gni_find_rectangle(uint32_t out[4], const gni_hull *hull, const gn_camera *camera, const gn_target *target);
-/* The same of two balls (centre, radius) and all that is between them; both before the near plane, or one and the same. */
+/* The same of two balls (centre, radius) and all that is between them; both before the near plane, or one and the
+ * same. */
 void gni_find_balls_rectangle(uint32_t out[4], const double a[4], const double b[4], const gn_camera *camera,
                               const gn_target *target);
 /* Of a light that no bound is known of, or asked for. */

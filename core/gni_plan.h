@@ -76,7 +76,12 @@ typedef enum gni_on_patch {
 
 /* cache.c */
 #define GNI_CACHED_CHUNKS 4
-enum { GNI_STREAM_FAN, GNI_STREAM_CAP, GNI_STREAM_CONVERGING, GNI_STREAM_KINDS }; /* what its dark cap is: the last has none */
+enum {
+    GNI_STREAM_FAN,
+    GNI_STREAM_CAP,
+    GNI_STREAM_CONVERGING,
+    GNI_STREAM_KINDS
+}; /* what its dark cap is: the last has none */
 
 typedef struct gni_stream {
     uint32_t first, room, count; /* count 0: not made */
@@ -88,12 +93,12 @@ typedef struct gni_stream {
 /* Of one object in one light. */
 typedef struct gni_slot {
     const gn_mesh *mesh;
-    uint32_t shape;   /* of the mesh, when it was asked */
-    double light[4];  /* in the space of the mesh */
-    int is_made;      /* some stream is */
-    uint32_t made; /* in which frame, or when it was first asked for */
+    uint32_t shape;                 /* of the mesh, when it was asked */
+    double light[4];                /* in the space of the mesh */
+    int is_made;                    /* some stream is */
+    uint32_t made;                  /* in which frame, or when it was first asked for */
     uint32_t triangles, silhouette; /* that cast; weights of edges */
-    int runs_round;   /* its sides, round the hub */
+    int runs_round;                 /* its sides, round the hub */
     gni_stream streams[GNI_STREAM_KINDS];
 } gni_slot;
 
@@ -119,17 +124,17 @@ typedef struct gni_draft {
     gn_plan_light *lights;
     gn_plan_object *objects;
     gn_plan_caster *casters;
-    gni_hull *boxes;         /* [object_count] of objects, in view space */
-    double (*balls)[4];        /* [object_count] centre and radius of a ball around each */
-    uint32_t (*rectangles)[4]; /* [object_count] pixels in which they may be seen */
-    uint8_t *is_in;          /* [object_count] of the light at hand: GNI_IN_* */
+    gni_hull *boxes;                       /* [object_count] of objects, in view space */
+    double (*balls)[4];                    /* [object_count] centre and radius of a ball around each */
+    uint32_t (*rectangles)[4];             /* [object_count] pixels in which they may be seen */
+    uint8_t *is_in;                        /* [object_count] of the light at hand: GNI_IN_* */
     double (*heights)[GN_MOST_PATCHES][2]; /* [object_count] over each patch; NAN: not known yet */
     gni_patch patches[GN_MOST_PATCHES];
     uint32_t patch_count;
-    int are_marked;            /* patches, in the stencil as it is now */
-    gn_record *flats;          /* fans on patches, until the light's volumes are all made */
+    int are_marked;   /* patches, in the stencil as it is now */
+    gn_record *flats; /* fans on patches, until the light's volumes are all made */
     uint32_t flat_count;
-    gni_hull all_lit;        /* a box around all that receives and is lit by it */
+    gni_hull all_lit;           /* a box around all that receives and is lit by it */
     gni_casting casting, group; /* of the caster at hand; group: those of one volume of it */
     uint8_t *end_of;
     gni_region *region; /* NULL: volumes need not end */
@@ -137,8 +142,8 @@ typedef struct gni_draft {
     gni_layers *layers; /* NULL: nothing can nest too much; nor are there the six arrays that follow */
     gni_casting piece;  /* of the volume at hand: those of one piece */
     uint32_t *order, *parent, *end, *ring;
-    uint32_t *cheap_of; /* [object_count] layers of each caster of the light at hand, a cheap bound */
-    gni_slot *slot;    /* of the caster at hand in the cache; NULL: it is not kept */
+    uint32_t *cheap_of;   /* [object_count] layers of each caster of the light at hand, a cheap bound */
+    gni_slot *slot;       /* of the caster at hand in the cache; NULL: it is not kept */
     int casting_is_known; /* d->casting is the slot's, or there is none */
     gni_choice choice;
     uint32_t whole[4]; /* the target's pixels */
@@ -181,15 +186,16 @@ typedef struct gni_extent {
     gni_on_patch on[GN_MOST_PATCHES];    /* of each patch of the frame */
     uint32_t shadow[GN_MOST_PATCHES][4]; /* where a fan is seen */
     int is_ended;
-    double end_plane[4]; /* view space, positive where the caster is */
-    uint32_t scissor[4]; /* pixels where it must be counted, or more */
+    double end_plane[4];             /* view space, positive where the caster is */
+    uint32_t scissor[4];             /* pixels where it must be counted, or more */
     uint32_t image[4], end_image[4]; /* of them, those in which it may be seen, and its end */
 
     /* while it is found */
     double normals[GNI_NORMALS][3], lowest[GNI_NORMALS]; /* of what is touched, along the normals */
     double deepest, greatest;                            /* view distance and coordinate of what is touched */
-    double moves[2]; /* of vertices to the end, least and most: factors of their distance from the light, or distances */
-    uint32_t touched, needed[4];                         /* how many, and the pixels of their images */
+    double
+        moves[2]; /* of vertices to the end, least and most: factors of their distance from the light, or distances */
+    uint32_t touched, needed[4]; /* how many, and the pixels of their images */
 } gni_extent;
 
 /* Of a caster. */
@@ -219,7 +225,8 @@ int gni_shows_side(const gn_object *object, int mirrored, double of_eye);
 void gni_start_cache(gn_shadow_cache *cache, const gn_scene *scene);
 /* What the plan says of it. */
 void gni_end_cache(const gn_shadow_cache *cache, gn_plan *plan);
-/* The slot of an object in the light at hand, whose streams may be used, or made; NULL where nothing is kept of it now. */
+/* The slot of an object in the light at hand, whose streams may be used, or made; NULL where nothing is kept of it
+ * now. */
 gni_slot *gni_find_slot(gni_draft *d, uint32_t object);
 /* Where a stream of at most so many indices may be written; NULL where there is no room. */
 uint16_t *gni_take_room(gn_shadow_cache *cache, gni_stream *stream, uint32_t most);
@@ -243,11 +250,11 @@ typedef struct gni_volume {
     gn_far far_end;
     const double *end_plane; /* view space; not read where there is a reach */
     double end_reach;
-    int unpatched;      /* as in gn_record */
+    int unpatched; /* as in gn_record */
 } gni_volume;
 
-/* slivers.c: the eye in the space of the object's mesh, and how near to it a triangle's plane must come to be drawn in a
- * light cap by z-pass. 0 where all must be drawn. */
+/* slivers.c: the eye in the space of the object's mesh, and how near to it a triangle's plane must come to be drawn in
+ * a light cap by z-pass. 0 where all must be drawn. */
 int gni_find_slivers(const gni_draft *d, uint32_t object, double eye[4], double *limit);
 uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, const double eye[4], double limit,
                          uint16_t *out);
@@ -262,8 +269,8 @@ gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand,
 /* records.c */
 /* Planes go the other way: a plane p of view space is p m in the space that m takes to view space. */
 void gni_plane_before(double out[4], const double plane[4], const double m[16]);
-/* A bound on the layers of a caster that costs no more than to look: half the silhouette, seen from outside. GNI_NONE: it
- * is not known. */
+/* A bound on the layers of a caster that costs no more than to look: half the silhouette, seen from outside. GNI_NONE:
+ * it is not known. */
 void gni_note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t silhouette);
 /* Records from the slot at hand; 0 where it has no room. */
 int gni_add_kept_records(gni_draft *d, const gni_volume *volume);
@@ -273,7 +280,8 @@ void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint
  * GNI_NONE where no sides are drawn. */
 uint32_t gni_add_records(gni_draft *d, const gni_volume *volume, const gni_casting *casting);
 
-/* sweep.c: no point has more layers of the records from first_record on than this; UINT32_MAX where that is not known. */
+/* sweep.c: no point has more layers of the records from first_record on than this; UINT32_MAX where that is not
+ * known. */
 uint32_t gni_sweep_layers(gni_draft *d, uint32_t first_record);
 /* The same of one caster's. */
 uint32_t gni_sweep_caster(gni_draft *d, uint32_t first_record, uint32_t object);

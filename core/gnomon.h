@@ -90,7 +90,7 @@ typedef struct gn_mesh_desc {
  * each. Index 2 i is vertex i as it is (near), 2 i + 1 the same vertex moved away from the light (far). After the last
  * comes the mesh's hub, about which fans are drawn. */
 typedef struct gn_chunk {
-    uint32_t first_vertex, vertex_count; /* in gn_mesh_info.chunk_vertices */
+    uint32_t first_vertex, vertex_count;     /* in gn_mesh_info.chunk_vertices */
     uint32_t first_triangle, triangle_count; /* in gn_mesh_info.corners */
 } gn_chunk;
 
@@ -108,15 +108,16 @@ typedef struct gn_mesh_info {
     uint32_t solid_part_count; /* closed, wound alike, not passing through themselves: only their lit triangles cast */
     uint32_t outward_part_count; /* solid parts whose front faces look outward */
     uint32_t chunk_count;
-    double weld_error; /* the greatest length of what faces the light together; 0 without a weld angle. Object space, of the
-                          first shape */
+    /* The greatest length of what faces the light together; 0 without a weld angle. Object space, of the first shape. */
+    double weld_error;
     uint32_t shape;                 /* how often gn_mesh_update() has changed it */
     int planar;                     /* 1: all triangles lie in one plane; 2: and are wound alike */
     const float *positions;         /* [vertex_count][3], welded, less the centre */
     const uint32_t *triangles;      /* [triangle_count][3], into positions */
     const gn_chunk *chunks;         /* [chunk_count] */
     const uint32_t *chunk_vertices; /* into positions */
-    const uint16_t *corners; /* [triangle_count][3]: index of each corner's near vertex, in its chunk. Not in the order of
+    const uint16_t
+        *corners; /* [triangle_count][3]: index of each corner's near vertex, in its chunk. Not in the order of
                                 `triangles`, but in the mesh's own, in which chunks are runs */
 } gn_mesh_info;
 
@@ -126,11 +127,11 @@ typedef struct gn_mesh_info {
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **mesh);
 void gn_mesh_destroy(gn_mesh *mesh);
 
-/* The same triangles in another shape: positions as in the description, stride bytes from one to the next [12], borrowed
- * for the call. Vertices that were at one place must be so still. Centre, box, hub, parts and planarity change; what is
- * shared, chunks and corners do not. A closed part whose triangles are not all seen from the middle of its box counts as
- * not solid from then on: right, but with more fill. Call gn_gles_upload() again before the next frame. Allocates
- * nothing; O(triangles). Returns GN_OK, GN_E_ARG, GN_E_MESH: then nothing has changed. */
+/* The same triangles in another shape: positions as in the description, stride bytes from one to the next [12],
+ * borrowed for the call. Vertices that were at one place must be so still. Centre, box, hub, parts and planarity
+ * change; what is shared, chunks and corners do not. A closed part whose triangles are not all seen from the middle of
+ * its box counts as not solid from then on: right, but with more fill. Call gn_gles_upload() again before the next
+ * frame. Allocates nothing; O(triangles). Returns GN_OK, GN_E_ARG, GN_E_MESH: then nothing has changed. */
 gn_result gn_mesh_update(gn_mesh *mesh, const float *positions, size_t stride);
 
 const gn_mesh_info *gn_mesh_get_info(const gn_mesh *mesh);
@@ -238,7 +239,7 @@ typedef struct gn_object {
     const gn_mesh *mesh; /* borrowed while the plan lives */
     double model[16];    /* object to world; last row 0 0 0 1 */
     unsigned flags;      /* of GN_CASTS, GN_RECEIVES, GN_DRAWN, GN_DRAWN_BACKS */
-    double error;        /* how far the surface of what it stands for may be from it: of a proxy that casts in the place of
+    double error; /* how far the surface of what it stands for may be from it: of a proxy that casts in the place of
                             something finer. Object space; the plan says what comes of it [0] */
 } gn_object;
 
@@ -289,15 +290,15 @@ gn_method gn_method_by_name(const char *name, int *one_sided);
 /* Of a stencil that tells lit from shadowed by a count in its low bits (DESIGN.md, decision 10). A pixel is lit where
  * the stencil's bits of `mask` equal the reference. */
 typedef struct gn_stencil_layout {
-    int two_sided; /* 0: every caster is drawn twice, one side of its volume at a time, what counts up first */
-    int discard;   /* then the other side is discarded by gl_FrontFacing; 0: culled, which may lose slivers */
-    int wrap;      /* counts go round at 256; 0: they stop at the ends */
-    int reference; /* the value of a pixel that no volume holds; buffers are cleared to it */
-    int low, high; /* counts, from the reference, that are kept. Wrapping: of the sum; else also on the way to it */
-    int bits;      /* of the count */
-    int flag;      /* the bit above: set where an earlier batch left a count; 0 where there is one batch */
+    int two_sided;  /* 0: every caster is drawn twice, one side of its volume at a time, what counts up first */
+    int discard;    /* then the other side is discarded by gl_FrontFacing; 0: culled, which may lose slivers */
+    int wrap;       /* counts go round at 256; 0: they stop at the ends */
+    int reference;  /* the value of a pixel that no volume holds; buffers are cleared to it */
+    int low, high;  /* counts, from the reference, that are kept. Wrapping: of the sum; else also on the way to it */
+    int bits;       /* of the count */
+    int flag;       /* the bit above: set where an earlier batch left a count; 0 where there is one batch */
     int patch_bits; /* above the count: they name the patch that is seen; 0: patches are counted as all else */
-    int mask;      /* of count and flag */
+    int mask;       /* of count and flag */
 } gn_stencil_layout;
 
 /* How the far end of a volume survives clipping at the far plane. */
@@ -310,7 +311,7 @@ typedef enum gn_far {
 /* What the method stencil does to fill no more than a receiver needs. All of it is exact; each moves pixels next to a
  * discontinuity at most. */
 enum {
-    GN_MEASURE_ENDS = 1,    /* volumes end right behind the last thing that they may shadow, or at the light's reach */
+    GN_MEASURE_ENDS = 1,     /* volumes end right behind the last thing that they may shadow, or at the light's reach */
     GN_MEASURE_SCISSORS = 2, /* and are counted only where such things are seen */
     GN_MEASURE_PATCHES = 4   /* on flat receivers projections are counted, and volumes reach the others only */
 };
@@ -337,19 +338,19 @@ typedef struct gn_scene {
      * out] */
     double least_light;
     gn_shadow_cache *cache; /* borrowed while the plan lives; one plan at a time [NULL: none] */
-    unsigned without; /* to measure them: a set of gn_measure that the method stencil does without */
+    unsigned without;       /* to measure them: a set of gn_measure that the method stencil does without */
 } gn_scene;
 
 enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4 };
 
-/* One chunk of one caster's volume for one light. Its indices stand in gn_plan.indices, or in gn_plan.cached_indices, from
- * first_index on: sides and dark cap in either order, light cap, turned light cap. The last is the part of the light cap
- * whose triangles cast turned round; it keeps its drawn order of vertices (DESIGN.md, decision 4), so that its front
- * counts as back. */
+/* One chunk of one caster's volume for one light. Its indices stand in gn_plan.indices, or in gn_plan.cached_indices,
+ * from first_index on: sides and dark cap in either order, light cap, turned light cap. The last is the part of the
+ * light cap whose triangles cast turned round; it keeps its drawn order of vertices (DESIGN.md, decision 4), so that
+ * its front counts as back. */
 typedef struct gn_record {
     uint32_t light, object, chunk;
     unsigned parts; /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: those with triangles */
-    int is_cached; /* its indices are in gn_plan.cached_indices */
+    int is_cached;  /* its indices are in gn_plan.cached_indices */
     uint32_t first_index, first_side, first_dark_cap;
     uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
     int fan;          /* the dark cap is a fan over the silhouette */
@@ -416,12 +417,12 @@ typedef struct gn_plan_light {
     uint32_t
         scissor[4]; /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound; all 0: the
                                  light is skipped */
-    double depth_bounds[2];   /* window depths of what it lights; 0, 1: no bound */
-    double caster_error;      /* how far a shadow's edge may be off where it starts: by proxies' errors and welded edges */
-    double light_moved;       /* since the oldest shadow from the cache was found, as its caster sees it */
-    double possible_error;    /* the most that skipping it takes from a pixel; 0 unless it is GN_SKIP_UNIMPORTANT */
-    uint32_t casters;         /* with a volume, or a projection on a patch */
-    uint32_t cases[3];        /* of them: McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
+    double depth_bounds[2]; /* window depths of what it lights; 0, 1: no bound */
+    double caster_error;   /* how far a shadow's edge may be off where it starts: by proxies' errors and welded edges */
+    double light_moved;    /* since the oldest shadow from the cache was found, as its caster sees it */
+    double possible_error; /* the most that skipping it takes from a pixel; 0 unless it is GN_SKIP_UNIMPORTANT */
+    uint32_t casters;      /* with a volume, or a projection on a patch */
+    uint32_t cases[3];     /* of them: McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
     uint32_t skipped_casters; /* that might have cast, and were skipped */
     uint32_t layers;          /* no point is blocked by more casting triangles of one batch than this */
     uint32_t batches;         /* in which volumes are counted, folded into the flag between */
@@ -478,7 +479,7 @@ typedef struct gn_plan {
     uint32_t record_count;
     const uint16_t *indices;
     uint32_t index_count;
-    uint32_t cache_id; /* 0: there is none; no two of a context are alike */
+    uint32_t cache_id;              /* 0: there is none; no two of a context are alike */
     const uint16_t *cached_indices; /* until the cache's next plan */
     uint32_t cached_index_count, cached_capacity;
     uint32_t cache_version, cache_base; /* base: that before this plan; since then only [first, end) has changed: */
@@ -491,11 +492,11 @@ typedef struct gn_plan {
     const gn_plan_caster *casters; /* [light_count][object_count] */
     uint32_t patch_count;
     double patches[GN_MOST_PATCHES][4]; /* world: planes, positive where the eye is */
-    uint32_t warnings;             /* set of gn_warning: bit 1u << warning */
-    uint32_t endless_casters;      /* left out with GN_WARN_ENDLESS; one is counted for each light */
-    double depth_limit;            /* the view distance from which on four steps of depth are larger than a pixel */
-    double farthest_vertex;        /* the greatest distance from the plane of the eye of anything that may be seen */
-    double deepest_receiver;       /* the view distance of the farthest thing that receives and may be seen */
+    uint32_t warnings;                  /* set of gn_warning: bit 1u << warning */
+    uint32_t endless_casters;           /* left out with GN_WARN_ENDLESS; one is counted for each light */
+    double depth_limit;      /* the view distance from which on four steps of depth are larger than a pixel */
+    double farthest_vertex;  /* the greatest distance from the plane of the eye of anything that may be seen */
+    double deepest_receiver; /* the view distance of the farthest thing that receives and may be seen */
 } gn_plan;
 
 /* Bytes that gn_plan_make() may need for this scene at most, whatever the camera, the lights' places and the model
@@ -504,10 +505,10 @@ typedef struct gn_plan {
 size_t gn_plan_bound(const gn_scene *scene);
 
 /* Makes the plan of a frame in the given memory (aligned for double). Pure but for the cache: equal scenes give equal
- * bytes. Allocates nothing, but for a cache that grows. Returns GN_OK; GN_E_ARG for what is not finite or out of range; GN_E_SPACE; GN_E_DEVICE when the method
- * needs what the target lacks, or when a volume would be clipped at the far plane. Cost, for each light: O(triangles of
- * casters); boxes of casters against boxes of receivers until one is touched; and where more layers are possible than
- * the stencil counts, a few times as much again for each batch. */
+ * bytes. Allocates nothing, but for a cache that grows. Returns GN_OK; GN_E_ARG for what is not finite or out of range;
+ * GN_E_SPACE; GN_E_DEVICE when the method needs what the target lacks, or when a volume would be clipped at the far
+ * plane. Cost, for each light: O(triangles of casters); boxes of casters against boxes of receivers until one is
+ * touched; and where more layers are possible than the stencil counts, a few times as much again for each batch. */
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan);
 
 /* The method of one of the plan's lights with its suffix: "zfail", "zfail/one-sided". Static; "" for a light that is

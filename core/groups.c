@@ -1,9 +1,9 @@
 /* groups.c - edges welded by angle (Hoxley 2003): triangles that lie nearly in one plane face the light together.
  *
  * From a triangle on, neighbours join while their normals are within the angle of the first one's. All of a group are
- * decided by its plane: the sum of theirs. So no silhouette runs through a group, and there are fewer edges, and straighter
- * ones; volumes are as closed as ever, since all follows one bit a triangle. A silhouette may lie on the wrong border of a
- * group: that far, and no farther, a shadow's edge may be off where it starts. */
+ * decided by its plane: the sum of theirs. So no silhouette runs through a group, and there are fewer edges, and
+ * straighter ones; volumes are as closed as ever, since all follows one bit a triangle. A silhouette may lie on the
+ * wrong border of a group: that far, and no farther, a shadow's edge may be off where it starts. */
 #include "gni.h"
 
 #include <math.h>
@@ -62,7 +62,8 @@ gn_result gni_make_groups(gn_mesh *mesh, double angle)
     mesh->facing_planes = gni_alloc(context, triangles, 4 * sizeof *mesh->facing_planes);
     if (!queue || !mesh->group_of || !mesh->facing_planes) {
         gni_free(context, queue);
-        return gn_fail(context, GN_E_MEMORY, "mesh: no memory to weld edges of %lu triangles", (unsigned long)triangles);
+        return gn_fail(context, GN_E_MEMORY, "mesh: no memory to weld edges of %lu triangles",
+                       (unsigned long)triangles);
     }
     memset(mesh->group_of, 0xff, triangles * sizeof *mesh->group_of);
     for (uint32_t first = 0; first < triangles; first++) {

@@ -2,8 +2,8 @@
  *
  * Runs of 64 are clusters (clusters.c), and the smaller these are in space, the more of them lie all on one side of a
  * light. So the triangles are split in two at the middle of the longest side of the box around their centres, again and
- * again (Bentley's k-d tree, 1975): not in halves but so that the first part is a power of two clusters, the largest that
- * leaves a rest. Then runs of 8 clusters, of 64 and so on, which are the nodes of a tree, are boxes too. */
+ * again (Bentley's k-d tree, 1975): not in halves but so that the first part is a power of two clusters, the largest
+ * that leaves a rest. Then runs of 8 clusters, of 64 and so on, which are the nodes of a tree, are boxes too. */
 #include "gni.h"
 
 #include <math.h>
@@ -105,7 +105,8 @@ gn_result gni_order_triangles(gn_mesh *mesh)
         sort(items, count);
     for (uint32_t t = 0; t < count && !failed; t++) {
         mesh->order[t] = items[t].triangle;
-        memcpy(mesh->triangles + 3 * (size_t)t, mesh->given + 3 * (size_t)items[t].triangle, 3 * sizeof *mesh->triangles);
+        memcpy(mesh->triangles + 3 * (size_t)t, mesh->given + 3 * (size_t)items[t].triangle,
+               3 * sizeof *mesh->triangles);
     }
     gni_free(context, items);
     if (failed)

@@ -33,8 +33,8 @@ static uint32_t neighbour(const gn_mesh *mesh, uint32_t corner)
     return triangle_of(mesh->uses[(mesh->uses[first] & GNI_USE_CORNER) == corner ? first + 1 : first]);
 }
 
-/* part_of: from triangle to part; GNI_NONE for degenerate triangles. stack: [triangle_count]. Returns the number of parts;
- * they come in the order of their first triangles. */
+/* part_of: from triangle to part; GNI_NONE for degenerate triangles. stack: [triangle_count]. Returns the number of
+ * parts; they come in the order of their first triangles. */
 static uint32_t number_parts(const gn_mesh *mesh, uint32_t *part_of, uint32_t *stack)
 {
     uint32_t count = 0;

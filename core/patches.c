@@ -1,24 +1,24 @@
 /* patches.c - flat receivers, which need no volume.
  *
  * On a plane that the light and the eye see from the same side, a caster wholly between the two shadows exactly its
- * projection from the light (Blinn's projected shadows), and that is where its dark cap would lie if its volume ended on
- * this very plane: a signed fan over the silhouette, however tangled. Counted only where the plane is what is seen, it
- * needs no depth test, and the caster's volume need reach other receivers only. Where eye and light are on different
+ * projection from the light (Blinn's projected shadows), and that is where its dark cap would lie if its volume ended
+ * on this very plane: a signed fan over the silhouette, however tangled. Counted only where the plane is what is seen,
+ * it needs no depth test, and the caster's volume need reach other receivers only. Where eye and light are on different
  * sides of the plane all that is seen of it is shadow.
  *
- * A patch is the planar objects of one plane, drawn whole. Its pixels are named once a frame in the bits above the count,
- * by drawing it again where its depth is the one that is seen: as the host's passes find their surfaces again. One step of
- * tolerance would name what stands on the plane, along the line where it does. */
+ * A patch is the planar objects of one plane, drawn whole. Its pixels are named once a frame in the bits above the
+ * count, by drawing it again where its depth is the one that is seen: as the host's passes find their surfaces again.
+ * One step of tolerance would name what stands on the plane, along the line where it does. */
 #include "gni_plan.h"
 
 #include <math.h>
 #include <string.h>
 
-#define FLAT   1e-6         /* of the greatest coordinate: so near to a plane is in it */
-#define BELOW  (1.0 / 64.0) /* of the light's height: a caster must stay below it by this */
-#define LEAST  (1.0 / 64.0) /* of the target's pixels, of a patch that is worth its bits */
-#define PRICE  1.0          /* of naming a pixel, in pixels of volumes */
-#define LEFT   255          /* in gn_plan_object.patch meanwhile: it was tried */
+#define FLAT  1e-6         /* of the greatest coordinate: so near to a plane is in it */
+#define BELOW (1.0 / 64.0) /* of the light's height: a caster must stay below it by this */
+#define LEAST (1.0 / 64.0) /* of the target's pixels, of a patch that is worth its bits */
+#define PRICE 1.0          /* of naming a pixel, in pixels of volumes */
+#define LEFT  255          /* in gn_plan_object.patch meanwhile: it was tried */
 
 int gni_plane_in_view(const gn_object *object, const gn_camera *camera, double plane[4])
 {
@@ -133,8 +133,8 @@ static double area_of(const uint32_t rectangle[4])
     return (double)rectangle[2] * rectangle[3];
 }
 
-/* About how many pixels a caster's volume covers less when it need not reach the patch: the box around caster and shadow
- * on the image, less the two themselves. */
+/* About how many pixels a caster's volume covers less when it need not reach the patch: the box around caster and
+ * shadow on the image, less the two themselves. */
 static double saving_of(const gni_draft *d, uint32_t object, const gni_patch *patch, const double light[4])
 {
     const double of_light = gni_dot(patch->plane, light) + patch->plane[3] * light[3];
@@ -181,7 +181,8 @@ void gni_find_patches(gni_draft *d)
         for (int p = 0; p < GN_MOST_PATCHES; p++)
             d->heights[i][p][0] = NAN;
     }
-    if (d->choice.method != GN_METHOD_STENCIL || s->without & GN_MEASURE_PATCHES || !d->choice.stencil.wrap || d->region)
+    if (d->choice.method != GN_METHOD_STENCIL || s->without & GN_MEASURE_PATCHES || !d->choice.stencil.wrap ||
+        d->region)
         return;
     while (d->patch_count < GN_MOST_PATCHES) {
         gni_patch *patch = &d->patches[d->patch_count];
@@ -259,7 +260,9 @@ void gni_light_patches(gni_draft *d)
                                              : GNI_MARGIN * (fabs(patch->plane[3]) + sqrt(gni_dot(light, light)));
 
         patch->of_light = gni_dot(patch->plane, light) + patch->plane[3] * light[3];
-        patch->use = patch->of_light > least ? GNI_PATCH_LIT : patch->of_light < -least ? GNI_PATCH_DARK : GNI_PATCH_NONE;
+        patch->use = patch->of_light > least    ? GNI_PATCH_LIT
+                     : patch->of_light < -least ? GNI_PATCH_DARK
+                                                : GNI_PATCH_NONE;
     }
 }
 

@@ -74,7 +74,8 @@ static int lay_out(gni_draft *d, arena *a)
         triangles = triangles < mesh->info.triangle_count ? mesh->info.triangle_count : triangles;
     }
     d->plan = cut(a, 1, sizeof *d->plan);
-    /* a light zeroes twice, marks once, darkens each patch and draws twice; each of its batches holds a piece of a caster at least, and is folded */
+    /* a light zeroes twice, marks once, darkens each patch and draws twice; each of its batches holds a piece of a
+     * caster at least, and is folded */
     if (batches > (SIZE_MAX / 2 - 8) / (s->light_count ? s->light_count : 1))
         return 0;
     d->steps = cut(a, 3 + (size_t)s->light_count * (5 + GN_MOST_PATCHES + 2 * batches), sizeof *d->steps);
@@ -104,7 +105,8 @@ static int lay_out(gni_draft *d, arena *a)
         d->ring = cut(a, triangles, sizeof *d->ring);
         d->cheap_of = cut(a, s->object_count, sizeof *d->cheap_of);
     }
-    d->indices = cut(a, indices * s->light_count + GNI_SLACK, sizeof *d->indices); /* last: what it does not need stays untouched */
+    d->indices = cut(a, indices * s->light_count + GNI_SLACK,
+                     sizeof *d->indices); /* last: what it does not need stays untouched */
     return !a->overflow;
 }
 

@@ -167,7 +167,9 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
         gni_put(&w, "%s", p ? ", " : "");
         put_plane(&w, plan->patches[p]);
     }
-    gni_put(&w, "], \"indices\": %lu, \"cached_indices\": %lu, \"streams_built\": %lu, \"endless_casters\": %lu,\n \"lights\": [",
+    gni_put(&w,
+            "], \"indices\": %lu, \"cached_indices\": %lu, \"streams_built\": %lu, \"endless_casters\": %lu,\n "
+            "\"lights\": [",
             (unsigned long)plan->index_count, (unsigned long)plan->cached_index_count, (unsigned long)plan->cache_built,
             (unsigned long)plan->endless_casters);
     for (uint32_t i = 0; i < plan->light_count; i++)

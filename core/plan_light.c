@@ -107,8 +107,8 @@ static gn_result add_casters(gni_draft *d)
             const gn_object *object = &d->scene->objects[i];
 
             d->is_in[i] |= GNI_IN_CAST;
-            about->caster_error = fmax(about->caster_error, (object->error + object->mesh->info.weld_error) *
-                                                                gni_stretch(object->model));
+            about->caster_error =
+                fmax(about->caster_error, (object->error + object->mesh->info.weld_error) * gni_stretch(object->model));
             caster->skip = GN_SKIP_NOT;
             about->casters++;
             if (caster->mcguire_case)

@@ -25,7 +25,8 @@ static int is_end_crossed(const gni_draft *d, const gni_volume *v)
         return 1;
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
-            !(v->unpatched && d->objects[i].patch) && gni_do_rectangles_meet(d->rectangles[i], v->extent->end_image) && !gni_is_object_before(d, i, v->end_plane))
+            !(v->unpatched && d->objects[i].patch) && gni_do_rectangles_meet(d->rectangles[i], v->extent->end_image) &&
+            !gni_is_object_before(d, i, v->end_plane))
             return 1;
     return 0;
 }
@@ -72,8 +73,8 @@ static void add_volume(gni_draft *d, const gni_volume *v, const gni_casting *cas
         gni_note_layers(d, v->object, casting->count, gni_add_records(d, v, casting));
 }
 
-static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent, gn_far far_end,
-                        int unpatched)
+static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent,
+                        gn_far far_end, int unpatched)
 {
     static const double infinity[4] = {0, 0, 0, 1};
     const gni_volume v = {object, at_hand, extent, far_end, infinity, 0.0, unpatched};

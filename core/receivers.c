@@ -66,7 +66,8 @@ static int ball_misses(const double caster[4], const double light[4], const doub
     along = gni_dot(axis, to) / sqrt(square);
     across = sqrt(fmax(gni_dot(to, to) - along * along, 0.0));
     if (light[3] == 0.0)
-        return across > (caster[3] + other[3]) * (1.0 + GNI_MARGIN) || along < -(caster[3] + other[3]) * (1.0 + GNI_MARGIN);
+        return across > (caster[3] + other[3]) * (1.0 + GNI_MARGIN) ||
+               along < -(caster[3] + other[3]) * (1.0 + GNI_MARGIN);
     sine = caster[3] / sqrt(square);
     if (!(sine < 0.95))
         return 0;
@@ -103,7 +104,8 @@ int gni_find_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull
         return 0;
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (i != object && d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
-            !is_patched(e, d, i) && !(is_flat && gni_lies_before(&d->boxes[i], plane)) && is_touched(d, object, volume, i))
+            !is_patched(e, d, i) && !(is_flat && gni_lies_before(&d->boxes[i], plane)) &&
+            is_touched(d, object, volume, i))
             gni_touch(e, d, i);
     return e->touched > 0 && gni_end_extent(e, d, object, volume);
 }

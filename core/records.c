@@ -1,8 +1,8 @@
 /* records.c - records of a volume: where its indices are, chunk by chunk, and where its far vertices go.
  *
  * Indices are made for this frame, of the parts that its way of counting takes; or they are in the cache, all parts of
- * them, and a record is a run of these. The fan that closes a volume on a plane is also its projection on any patch: it is
- * made once. */
+ * them, and a record is a run of these. The fan that closes a volume on a plane is also its projection on any patch: it
+ * is made once. */
 #include "gni_plan.h"
 
 #include <math.h>
@@ -220,7 +220,8 @@ void gni_note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t
 {
     uint32_t cheap = triangles;
 
-    if (silhouette != GNI_NONE && silhouette / 2 < triangles && gni_light_is_outside(&d->boxes[object], d->bounds.light))
+    if (silhouette != GNI_NONE && silhouette / 2 < triangles &&
+        gni_light_is_outside(&d->boxes[object], d->bounds.light))
         cheap = silhouette / 2;
     d->cheap_layers += cheap;
     if (d->layers)
@@ -247,7 +248,8 @@ static int find_kept_fan(const gni_draft *d, const gni_stream *stream, int kind,
     uint32_t at = stream ? stream->first : 0;
 
     for (uint32_t c = 0; c < chunk && stream; c++)
-        at += stream->parts[c].dark_cap + stream->parts[c].sides + stream->parts[c].light_cap + stream->parts[c].turned_cap;
+        at += stream->parts[c].dark_cap + stream->parts[c].sides + stream->parts[c].light_cap +
+              stream->parts[c].turned_cap;
     if (!stream)
         return 0;
     (void)d;

@@ -22,7 +22,8 @@ int gni_find_slivers(const gni_draft *d, uint32_t object_index, double eye[4], d
     const gn_object *object = &d->scene->objects[object_index];
     const gn_mesh *mesh = object->mesh;
     const gni_hull *box = &d->boxes[object_index];
-    const double pixels = fmin(d->whole[2] / (camera->right - camera->left), d->whole[3] / (camera->top - camera->bottom));
+    const double pixels =
+        fmin(d->whole[2] / (camera->right - camera->left), d->whole[3] / (camera->top - camera->bottom));
     static const double origin[3] = {0, 0, 0};
     double model_view[16], inverse[16], nearest = INFINITY, farthest = 0.0, longest = 0.0;
 
@@ -41,13 +42,13 @@ int gni_find_slivers(const gni_draft *d, uint32_t object_index, double eye[4], d
     gn_mat4_transform(eye, inverse, origin, 1.0);
     eye[3] = 1.0;
     /* an edge's image is no longer than the edge over the least distance, seen under the widest angle */
-    *limit = HEIGHT / pixels * mesh->longest_edge * gni_stretch(model_view) * longest / nearest * farthest *
-             farthest * farthest / fabs(gn_mat4_determinant3(object->model));
+    *limit = HEIGHT / pixels * mesh->longest_edge * gni_stretch(model_view) * longest / nearest * farthest * farthest *
+             farthest / fabs(gn_mat4_determinant3(object->model));
     return isfinite(*limit);
 }
 
-uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk_index, const gni_casting *c, const double eye[4], double limit,
-                         uint16_t *out)
+uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk_index, const gni_casting *c, const double eye[4],
+                         double limit, uint16_t *out)
 {
     const gn_chunk *chunk = &mesh->chunks[chunk_index];
     const uint32_t end = (chunk->first_triangle + chunk->triangle_count + GNI_CLUSTER - 1) / GNI_CLUSTER;

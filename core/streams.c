@@ -61,9 +61,10 @@ const gni_stream *gni_make_stream(gni_draft *d, uint32_t object_index, int kind)
         count += put_chunk(mesh, c, &d->casting, kind, out + count, stream);
         slot->silhouette += stream->parts[c].sides / (kind == GNI_STREAM_CONVERGING ? 3 : 6);
         if (mesh->info.chunk_count == 1)
-            slot->runs_round = slot->light[3] != 0.0 &&
-                               gni_runs_round_hub(mesh, 0, out + first + stream->parts[0].dark_cap, stream->parts[0].sides,
-                                                  kind == GNI_STREAM_CONVERGING ? 3 : 6, identity, slot->light);
+            slot->runs_round =
+                slot->light[3] != 0.0 &&
+                gni_runs_round_hub(mesh, 0, out + first + stream->parts[0].dark_cap, stream->parts[0].sides,
+                                   kind == GNI_STREAM_CONVERGING ? 3 : 6, identity, slot->light);
     }
     stream->count = count;
     slot->is_made = 1;

@@ -1,18 +1,18 @@
 /* sweep.c - a bound on layers from the silhouettes alone: a line swept over light space.
  *
  * A line over a point with L layers crosses L silhouette edges on its way in and L on its way out. So nowhere are there
- * more layers than half the weights that one line of a set crosses. The lines are those of a plane before the light along
- * which one coordinate is constant, in bins; an edge adds its weight to all bins that it touches. That takes a few
- * dozen instructions a silhouette edge, and mostly spares the question of cells.c, which looks at triangles. All casters
- * must lie before the plane through the light: one sun, or a lamp above a floor; for a lamp among casters there is no
- * answer here. */
+ * more layers than half the weights that one line of a set crosses. The lines are those of a plane before the light
+ * along which one coordinate is constant, in bins; an edge adds its weight to all bins that it touches. That takes a
+ * few dozen instructions a silhouette edge, and mostly spares the question of cells.c, which looks at triangles. All
+ * casters must lie before the plane through the light: one sun, or a lamp above a floor; for a lamp among casters there
+ * is no answer here. */
 #include "gni_plan.h"
 
 #include <math.h>
 #include <string.h>
 
 #define PASSES 64
-#define WAYS   4 /* in which the lines run: where a silhouette runs along them they cross much of it */
+#define WAYS   4    /* in which the lines run: where a silhouette runs along them they cross much of it */
 #define ROOM   0.01 /* of a corner's distance: so far before the plane through the light it must lie */
 #define LOOSE  1e-3 /* of a bin: rounding stays inside */
 
@@ -123,7 +123,8 @@ static int add_edge(const bins *b, const gn_mesh *mesh, const uint32_t *vertices
     return 1;
 }
 
-/* Adds the silhouette of a record: that which its sides stand on, or its fan on a patch; or the edges of its cap there. */
+/* Adds the silhouette of a record: that which its sides stand on, or its fan on a patch; or the edges of its cap
+ * there. */
 static int add_record(const gni_draft *d, const gn_record *r, const bins *in_view, int32_t differences[GNI_BINS + 1])
 {
     const gn_object *object = &d->scene->objects[r->object];

@@ -1,8 +1,9 @@
 /* update.c - a mesh in a new shape: all that its positions say, found again in the memory that is there.
  *
  * What triangles share stays as it was, and so does their order: clusters and chunks are still right, if no longer as
- * small as could be. Whether a closed part passes through itself is asked anew, by a test that needs no memory and knows
- * only parts that are seen whole from their middle; all triangles of the others cast, which is right for any shape. */
+ * small as could be. Whether a closed part passes through itself is asked anew, by a test that needs no memory and
+ * knows only parts that are seen whole from their middle; all triangles of the others cast, which is right for any
+ * shape. */
 #include "gni.h"
 
 #include <math.h>
@@ -32,10 +33,11 @@ static gn_result check(gn_mesh *mesh, const float *positions, size_t stride, uin
         other = vertex_of(positions, stride, scratch[welded]);
         for (int axis = 0; axis < 3; axis++)
             if (!(p[axis] >= other[axis] && p[axis] <= other[axis]))
-                return gn_fail(mesh->context, GN_E_MESH,
-                               "gn_mesh_update: vertices %lu and %lu were at one place, and are not: their %c is %g and %g",
-                               (unsigned long)scratch[welded], (unsigned long)v, "xyz"[axis], (double)other[axis],
-                               (double)p[axis]);
+                return gn_fail(
+                    mesh->context, GN_E_MESH,
+                    "gn_mesh_update: vertices %lu and %lu were at one place, and are not: their %c is %g and %g",
+                    (unsigned long)scratch[welded], (unsigned long)v, "xyz"[axis], (double)other[axis],
+                    (double)p[axis]);
     }
     return GN_OK;
 }

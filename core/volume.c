@@ -5,8 +5,8 @@
  * multiplicity. Directed edges cancel in pairs, so the surface is closed, facing outward.
  *
  * Sides are found from the casting triangles alone, cluster by cluster: what lies across each of their edges casts the
- * same way, or not. A cluster of closed parts that casts whole has no silhouette but on its border; one that casts not at
- * all has none. Edges that more or fewer than two triangles share, or two that are wound unlike, are asked for their
+ * same way, or not. A cluster of closed parts that casts whole has no silhouette but on its border; one that casts not
+ * at all has none. Edges that more or fewer than two triangles share, or two that are wound unlike, are asked for their
  * weight.
  *
  * With a directional light and no end plane all far vertices are one point at infinity: a side is a single triangle,
@@ -186,7 +186,8 @@ static uint16_t *copy_corners(const uint16_t *corners, uint64_t bits, uint16_t *
     return out;
 }
 
-static uint16_t *copy_turned(const uint16_t *corners, const gni_casting *c, uint32_t cluster, int8_t turn, uint16_t *out)
+static uint16_t *copy_turned(const uint16_t *corners, const gni_casting *c, uint32_t cluster, int8_t turn,
+                             uint16_t *out)
 {
     for (uint64_t bits = c->bits[cluster]; bits; bits &= bits - 1) {
         const uint32_t i = gni_lowest_bit(bits);

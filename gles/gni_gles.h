@@ -53,7 +53,7 @@ struct gn_gles {
     gn_gl gl;
     int forgotten;
     GLuint quad, indices, cached; /* cached: of a shadow cache */
-    uint32_t cache_id; /* what is in it, of which version, and how large it is */
+    uint32_t cache_id;            /* what is in it, of which version, and how large it is */
     uint32_t cache_version, cached_capacity;
     gni_program colored, counted; /* in one colour, and in none */
     gni_program sided;            /* discards one side of triangles, in no colour; its name is 0 until it is made */

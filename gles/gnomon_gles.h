@@ -100,8 +100,8 @@ const char *gn_gles_symptom(const gn_gles *gl, gn_capability capability);
 size_t gn_gles_save_target(const gn_gles *gl, const gn_target *target, char *text, size_t capacity);
 
 /* Puts a mesh into buffers: 32 bytes a chunk vertex (near and far), 6 a triangle. Once before the first plan that has
- * it, and again after each gn_mesh_update(). The mesh must outlive its upload. Returns GN_OK (also when it was there already), GN_E_ARG, GN_E_MEMORY,
- * GN_E_DEVICE. */
+ * it, and again after each gn_mesh_update(). The mesh must outlive its upload. Returns GN_OK (also when it was there
+ * already), GN_E_ARG, GN_E_MEMORY, GN_E_DEVICE. */
 gn_result gn_gles_upload(gn_gles *gl, const gn_mesh *mesh);
 void gn_gles_unload(gn_gles *gl, const gn_mesh *mesh); /* does nothing for one that is not there */
 

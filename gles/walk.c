@@ -242,7 +242,8 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
             may_switch |= GNI_SWITCH_BOUNDS;
         discards |= l->stencil.discard;
     }
-    if (discards && !g->sided.name && !gni_make_flat_program(g, &g->sided, "one side of volumes", "#define COUNTED\n#define SIDED\n"))
+    if (discards && !g->sided.name &&
+        !gni_make_flat_program(g, &g->sided, "one side of volumes", "#define COUNTED\n#define SIDED\n"))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses the shader that discards: see the log");
     g->plan = plan;
     g->may_switch = may_switch;

@@ -151,8 +151,8 @@ static int write_plan(const stage *s, const char *path)
 /* One frame, drawn and waited for. Returns 0 or an exit status. */
 static int timed_frame(stage *s, const job *j, int casting, double *ms, char message[SCENE_MESSAGE])
 {
-    const stage_wish wish = {j->method,     j->one_sided,  casting, 0, s->light_count, 0,
-                             j->blend_once, j->importance, 0,       casting};
+    const stage_wish wish = {j->method, j->one_sided,  casting,       0, s->light_count,
+                             0,         j->blend_once, j->importance, 0, casting};
     const double start = now_ms();
     const int status = stage_plan(s, &wish, message);
 
@@ -297,10 +297,20 @@ static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE
 
 static int run(const job *j, const char *path)
 {
-    const stage_options options = {
-        j->platform, (uint32_t)j->size[0],    (uint32_t)j->size[1], j->exposure, 24, 8, j->hide, 0.0,
-        NULL,        (uint32_t)j->soft_count, j->soft_radius,       {(uint32_t)j->update_every, j->update_distance},
-        j->weld_angle * 0.017453292519943295, (uint32_t)j->proxy};
+    const stage_options options = {j->platform,
+                                   (uint32_t)j->size[0],
+                                   (uint32_t)j->size[1],
+                                   j->exposure,
+                                   24,
+                                   8,
+                                   j->hide,
+                                   0.0,
+                                   NULL,
+                                   (uint32_t)j->soft_count,
+                                   j->soft_radius,
+                                   {(uint32_t)j->update_every, j->update_distance},
+                                   j->weld_angle * 0.017453292519943295,
+                                   (uint32_t)j->proxy};
     char message[SCENE_MESSAGE] = "";
     measured m;
     scene loaded;

@@ -1,12 +1,13 @@
-/* bench_frames.c - what shadows cost in a frame: one row of a CSV for each number of triangles, casters, lights and size.
+/* bench_frames.c - what shadows cost in a frame: one row of a CSV for each number of triangles, casters, lights and
+ * size.
  *
  *     bench_frames [--quick]
  *
- * The scene of pile.h, everything moving, untextured Lambert. Each frame is drawn three ways in turn: in one pass with all
- * lights and no shadows; in the plan's passes without volumes; and with them. Times are the process's, all threads (a
- * driver that rasterises on the processor), medians: a remark, of use as ratios within a row. shadow_part is what the
- * volumes add, in one-pass frames. Fragments of volumes are counted, per pixel of a mask; the columns that follow are the
- * same without each measure of gn_scene.without, and without all. --quick: three rows. */
+ * The scene of pile.h, everything moving, untextured Lambert. Each frame is drawn three ways in turn: in one pass with
+ * all lights and no shadows; in the plan's passes without volumes; and with them. Times are the process's, all threads
+ * (a driver that rasterises on the processor), medians: a remark, of use as ratios within a row. shadow_part is what
+ * the volumes add, in one-pass frames. Fragments of volumes are counted, per pixel of a mask; the columns that follow
+ * are the same without each measure of gn_scene.without, and without all. --quick: three rows. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,5 @@
-/* bench_rebuild.c - one step of rebuilding volumes, so many times: rebuild.sh counts its instructions under callgrind, and
- * lanes.sh compares what it finds.
+/* bench_rebuild.c - one step of rebuilding volumes, so many times: rebuild.sh counts its instructions under callgrind,
+ * and lanes.sh compares what it finds.
  *
  *     bench_rebuild WHAT TRIANGLES TIMES     a lump of about so many triangles; WHAT:
  *         build     makes the mesh

@@ -17,8 +17,8 @@ enum { WIDTH = 320, HEIGHT = 240, MOST = 200, COUNTS = 6 };
 static const char *const names[COUNTS] = {"frame_draws",     "frame_vertices",       "volume_draws",
                                           "volume_vertices", "fragments_rasterised", "fragments_passed"};
 
-/* Ended volumes have ends that are seen, sides of two triangles even of a sun, and projections are draws of their own: what
- * costs are fragments. */
+/* Ended volumes have ends that are seen, sides of two triangles even of a sun, and projections are draws of their own:
+ * what costs are fragments. */
 static const int is_bound[COUNTS] = {0, 0, 0, 0, 1, 0};
 
 typedef struct row {

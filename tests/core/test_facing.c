@@ -100,8 +100,8 @@ static void bits_are_the_expressions(void **state)
 
                 zeros += side == 0;
                 if (found != side)
-                    fail_msg("trial %u, light %g %g %g %g, triangle %u: %d, and in double %d", trial, light[0], light[1],
-                             light[2], light[3], t, found, side);
+                    fail_msg("trial %u, light %g %g %g %g, triangle %u: %d, and in double %d", trial, light[0],
+                             light[1], light[2], light[3], t, found, side);
             }
         }
         for (int i = 0; i < 4; i++)
@@ -171,7 +171,8 @@ static void sides_are_the_silhouette(void **state)
         sides = gni_put_sides(mesh, 0, &mesh->scratch, 1, indices);
         counts[1] = sides / 3;
         for (size_t i = 0; i < counts[1]; i++) /* b, a, a + 1: the cap runs from a to b */
-            tallies[1][i] = (tally){mesh->chunk_vertices[indices[3 * i + 1] / 2], mesh->chunk_vertices[indices[3 * i] / 2], 1};
+            tallies[1][i] =
+                (tally){mesh->chunk_vertices[indices[3 * i + 1] / 2], mesh->chunk_vertices[indices[3 * i] / 2], 1};
         counts[0] = add_up(tallies[0], counts[0]);
         counts[1] = add_up(tallies[1], counts[1]);
         assert_int_equal(counts[0], counts[1]);

@@ -55,7 +55,8 @@ static void make_mesh(test_mesh *m, int kind)
     }
 }
 
-/* -1, 0, 1: how a triangle of far vertices, as indices, is seen along a direction from the light; 0 where it is not hit. */
+/* -1, 0, 1: how a triangle of far vertices, as indices, is seen along a direction from the light; 0 where it is not
+ * hit. */
 static int covers(const gn_mesh *mesh, const uint16_t t[3], const double light[4], const double along[3])
 {
     double side[3], p[3][3], n[3];

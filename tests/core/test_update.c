@@ -1,5 +1,5 @@
-/* test_update.c - a mesh in a new shape is as one made so: the same planes, facing, silhouettes and solid parts, where these
- * are stars; bad positions change nothing; nothing is allocated. */
+/* test_update.c - a mesh in a new shape is as one made so: the same planes, facing, silhouettes and solid parts, where
+ * these are stars; bad positions change nothing; nothing is allocated. */
 #include "gn_test.h"
 #include "gni.h"
 
@@ -26,8 +26,8 @@ static int close_counting(void **state)
     return counter.live_bytes != 0;
 }
 
-/* Boxes, whose corners are given three times each, or a ball-like torus section; vertex v moved by a function of its place:
- * what is at one place stays so. */
+/* Boxes, whose corners are given three times each, or a ball-like torus section; vertex v moved by a function of its
+ * place: what is at one place stays so. */
 static void make_mesh(test_mesh *m)
 {
     m->vertex_count = m->triangle_count = 0;
@@ -77,7 +77,8 @@ static void shapes_are_as_made_so(void **state)
         assert_int_equal(gn_mesh_create(context, &desc, &meshes[1]), GN_OK);
         assert_int_equal(meshes[0]->info.shape, 1);
         assert_memory_equal(meshes[0]->info.centre, meshes[1]->info.centre, 9 * sizeof(float));
-        assert_memory_equal(meshes[0]->positions, meshes[1]->positions, meshes[1]->info.vertex_count * 3 * sizeof(float));
+        assert_memory_equal(meshes[0]->positions, meshes[1]->positions,
+                            meshes[1]->info.vertex_count * 3 * sizeof(float));
         assert_true(meshes[0]->radius == meshes[1]->radius && meshes[0]->longest_edge == meshes[1]->longest_edge);
         assert_int_equal(meshes[1]->info.solid_part_count, 4);
         assert_int_equal(meshes[0]->info.solid_part_count, 3); /* the torus is no star */
@@ -134,7 +135,8 @@ static void bad_shapes_change_nothing(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(shapes_are_as_made_so), cmocka_unit_test(bad_shapes_change_nothing)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(shapes_are_as_made_so),
+                                       cmocka_unit_test(bad_shapes_change_nothing)};
 
     return cmocka_run_group_tests_name("update", tests, open_counting, close_counting);
 }

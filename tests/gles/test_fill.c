@@ -1,6 +1,6 @@
-/* test_fill.c - ends, scissors and patches against z-fail throughout: from random places in and around every scene the masks
- * differ in single pixels at most, and these lie on a border of the shadow or of a surface; fragments are never more, and
- * each measure comes up. */
+/* test_fill.c - ends, scissors and patches against z-fail throughout: from random places in and around every scene the
+ * masks differ in single pixels at most, and these lie on a border of the shadow or of a surface; fragments are never
+ * more, and each measure comes up. */
 #include "gn_matrix.h"
 #include "gn_test.h"
 #include "stage.h"

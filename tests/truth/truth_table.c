@@ -60,10 +60,10 @@ typedef struct way {
     const char *name;
     gn_method method;
     uint32_t hidden;
-    int same;    /* to the last bit what the first way draws */
-    int may_end; /* volumes end; a light that is too near may be refused */
-    int finite;  /* the camera has a far plane of its own, at twice the distance of all there is */
-    int slivers; /* slivers may be lost: few pixels are wrong, and none of them fails the table */
+    int same;         /* to the last bit what the first way draws */
+    int may_end;      /* volumes end; a light that is too near may be refused */
+    int finite;       /* the camera has a far plane of its own, at twice the distance of all there is */
+    int slivers;      /* slivers may be lost: few pixels are wrong, and none of them fails the table */
     unsigned without; /* of gn_measure */
 } way;
 

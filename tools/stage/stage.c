@@ -303,7 +303,8 @@ static void place_object(stage *s, size_t index, const gn_camera *camera, const 
     const stage_mesh *m = &s->meshes[instance->mesh];
     gn_object *first = &s->objects[index], *drawn = &s->objects[stage_drawn_object(s, index)];
 
-    for (size_t i = index; i <= index + (s->proxy_triangles ? s->scene->instance_count : 0); i += s->scene->instance_count) {
+    for (size_t i = index; i <= index + (s->proxy_triangles ? s->scene->instance_count : 0);
+         i += s->scene->instance_count) {
         memset(&s->objects[i], 0, sizeof s->objects[i]);
         s->objects[i].mesh = m->mesh;
         memcpy(s->objects[i].model, instance->world, sizeof s->objects[i].model);

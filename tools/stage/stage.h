@@ -167,7 +167,7 @@ int stage_make_proxy(stage *s, const scene_mesh *m, stage_mesh *out);
 /* Which object of the plan is drawn for an instance: with a proxy another than the one that casts, which has its
  * number. */
 size_t stage_drawn_object(const stage *s, size_t instance);
-void stage_release(stage *s);                            /* stage_upload.c */
-stage_program *stage_use(stage *s, unsigned kind);       /* stage_program.c; NULL when a driver refuses it */
+void stage_release(stage *s);                      /* stage_upload.c */
+stage_program *stage_use(stage *s, unsigned kind); /* stage_program.c; NULL when a driver refuses it */
 stage_program *stage_use_lines(stage *s);
 #endif

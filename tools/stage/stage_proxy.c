@@ -1,5 +1,5 @@
-/* stage_proxy.c - meshes of fewer triangles that cast in the place of finer ones: by meshoptimizer, which estimates how far
- * the new surface is from the old.
+/* stage_proxy.c - meshes of fewer triangles that cast in the place of finer ones: by meshoptimizer, which estimates how
+ * far the new surface is from the old.
  *
  * Where a proxy stands out of what is seen, that is shadowed all over. So its vertices are moved inward by twice that
  * distance; its surface is then up to three times as far away, and a shadow's edge too. */
