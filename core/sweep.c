@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define PASSES 64
-#define WAYS   4    /* in which the lines run: where a silhouette runs along them they cross much of it */
+#define WAYS   12    /* in which the lines run: where a silhouette runs along them they cross much of it */
 #define ROOM   0.01 /* of a corner's distance: so far before the plane through the light it must lie */
 #define LOOSE  1e-3 /* of a bin: rounding stays inside */
 
