@@ -86,7 +86,7 @@ typedef int32_t masks;
 
 /* Eight times, without a loop. */
 #define RATE(j)                                                                                                        \
-    {                                                                                                                  \
+    do {                                                                                                               \
         floats x, y, z, d, s;                                                                                          \
                                                                                                                        \
         memcpy(&x, c->planes[0] + 8 * (j) + first, sizeof x);                                                          \
@@ -96,7 +96,7 @@ typedef int32_t masks;
         s = x * lx + y * ly + z * lz + d * lw;                                                                         \
         bits = bits + bits - HOLDS(s > zero);                                                                          \
         doubt |= HOLDS(MAGNITUDE(s) <= least);                                                                         \
-    }
+    } while (0)
 
 /* Bits of what is in front; 0 where some triangle's side is in doubt. Each vector shifts its lanes' bits up by one, so
  * that the last one's are the lowest. */
@@ -110,7 +110,15 @@ static int rate(const gni_cluster *c, const float l[4], float bound, uint64_t *f
     for (int first = 0; first < 8; first += LANES) {
         masks bits = {0}, doubt = {0};
 
-        RATE(0) RATE(1) RATE(2) RATE(3) RATE(4) RATE(5) RATE(6) RATE(7) memcpy(lanes[0] + first, &bits, sizeof bits);
+        RATE(0);
+        RATE(1);
+        RATE(2);
+        RATE(3);
+        RATE(4);
+        RATE(5);
+        RATE(6);
+        RATE(7);
+        memcpy(lanes[0] + first, &bits, sizeof bits);
         memcpy(lanes[1] + first, &doubt, sizeof doubt);
     }
     for (int i = 0; i < 8; i++) {

@@ -234,7 +234,8 @@ static gn_result add_volumes(gni_draft *d)
 {
     gn_plan_light *about = &d->lights[d->light];
     const gn_stencil_layout layout = about->stencil;
-    const gni_draft before = *d;
+    const gni_stain stain = d->stain;
+    const int were_marked = d->are_marked;
     const gn_plan plan = *d->plan;
     gn_result result = GN_OK;
     int is_long = 0;
@@ -251,8 +252,8 @@ static gn_result add_volumes(gni_draft *d)
         if (way == 1 && !d->layers)
             break;
         *d->plan = plan;
-        d->stain = before.stain;
-        d->are_marked = before.are_marked;
+        d->stain = stain;
+        d->are_marked = were_marked;
     }
     if (!d->is_batched)
         prepare_stencil(d);

@@ -243,7 +243,7 @@ static int find_fan(const gni_draft *d, uint32_t first_record, uint32_t chunk, g
 }
 
 /* The same from the cache. */
-static int find_kept_fan(const gni_draft *d, const gni_stream *stream, int kind, uint32_t chunk, gn_record *fan)
+static int find_kept_fan(const gni_stream *stream, int kind, uint32_t chunk, gn_record *fan)
 {
     uint32_t at = stream ? stream->first : 0;
 
@@ -252,7 +252,6 @@ static int find_kept_fan(const gni_draft *d, const gni_stream *stream, int kind,
               stream->parts[c].turned_cap;
     if (!stream)
         return 0;
-    (void)d;
     fan->first_index = at;
     fan->dark_cap_count = stream->parts[chunk].dark_cap;
     fan->is_cached = 1;
@@ -285,7 +284,7 @@ void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         gn_record shared = {0};
 
-        if (!find_kept_fan(d, stream, kind, c, &shared) && !find_fan(d, first_record, c, &shared))
+        if (!find_kept_fan(stream, kind, c, &shared) && !find_fan(d, first_record, c, &shared))
             make_fan(d, mesh, c, &shared);
         silhouette += shared.dark_cap_count / 3;
         for (uint32_t p = 0; p < d->patch_count && shared.dark_cap_count; p++)

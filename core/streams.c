@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+#define MOST_INDICES 24 /* of a triangle: three sides and both caps; of closed meshes far fewer */
+
 /* One chunk. Sides are written first, since a fan is made of them, and moved behind the dark cap. */
 static uint32_t put_chunk(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int kind, uint16_t *out,
                           gni_stream *stream)
@@ -30,13 +32,6 @@ static uint32_t put_chunk(const gn_mesh *mesh, uint32_t chunk, const gni_casting
     return n;
 }
 
-/* At most so many indices, of closed meshes far fewer. */
-static uint32_t most_indices(const gni_slot *slot, const gn_mesh *mesh)
-{
-    (void)slot;
-    return 24 * mesh->info.triangle_count + GNI_SLACK;
-}
-
 const gni_stream *gni_make_stream(gni_draft *d, uint32_t object_index, int kind)
 {
     const gn_mesh *mesh = d->scene->objects[object_index].mesh;
@@ -50,7 +45,7 @@ const gni_stream *gni_make_stream(gni_draft *d, uint32_t object_index, int kind)
         return stream;
     if (!d->casting_is_known)
         gni_find_casting(mesh, slot->light, &d->casting); /* which may not be the light's place now */
-    out = gni_take_room(d->scene->cache, stream, most_indices(slot, mesh));
+    out = gni_take_room(d->scene->cache, stream, MOST_INDICES * mesh->info.triangle_count + GNI_SLACK);
     if (!out)
         return NULL;
     slot->triangles = d->casting.count;

@@ -1,28 +1,15 @@
 /* test_bounds.c - bounded lights: from random places, the frame by `stencil`, which leaves out all that a light cannot
  * reach, is the frame by z-fail, which leaves out nothing; and it never costs more. llvmpipe. */
 #include "counted_gl.h"
-#include "gn_matrix.h"
 #include "gn_test.h"
 #include "stage.h"
+#include "views.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 64, HEIGHT = 48, VIEWS = 30 };
-
-static void place_camera(scene *s, uint32_t *rng)
-{
-    static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
-    double q[4];
-
-    for (int i = 0; i < 4; i++)
-        q[i] = test_uniform(rng, -1, 1);
-    gn_mat4_from_trs(s->camera.world, zero, q, one);
-    for (int i = 0; i < 3; i++)
-        s->camera.world[12 + i] = 0.5 * (s->bounds_min[i] + s->bounds_max[i]) +
-                                  test_uniform(rng, -0.35, 0.35) * (s->bounds_max[i] - s->bounds_min[i]);
-}
 
 typedef struct cost {
     uint64_t draws, vertices, rasterised, passed;
@@ -93,7 +80,7 @@ static void bounded_frames_are_the_same(void **state)
             int difference;
 
             if (view > 0) /* shaders want lights from the eye: posed after it is moved, which stays so */
-                place_camera(&loaded, &rng);
+                test_random_view(&loaded, &rng);
             stage_pose(s, 0, 0);
             loaded.camera.node = SCENE_NONE;
             for (int m = 0; m < 2; m++)

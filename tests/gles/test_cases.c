@@ -1,32 +1,15 @@
 /* test_cases.c - McGuire's cases against z-fail throughout: from random places in and around every scene, in and near
  * volumes, the masks have the same bits; every case comes up; and the counts are never higher. llvmpipe: a rasteriser
  * that is not watertight counts differently before and behind what is seen. */
-#include "gn_matrix.h"
 #include "gn_test.h"
 #include "stage.h"
+#include "views.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 64, HEIGHT = 48, VIEWS = 25 };
-
-static void place_camera(scene *s, uint32_t *rng)
-{
-    static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
-    double q[4], at[3];
-
-    for (int i = 0; i < 4; i++)
-        q[i] = test_uniform(rng, -1, 1);
-    for (int i = 0; i < 3; i++) {
-        const double middle = 0.5 * (s->bounds_min[i] + s->bounds_max[i]),
-                     half = 0.5 * (s->bounds_max[i] - s->bounds_min[i]);
-
-        at[i] = middle + test_uniform(rng, -0.7, 0.7) * half;
-    }
-    gn_mat4_from_trs(s->camera.world, zero, q, one);
-    memcpy(s->camera.world + 12, at, sizeof at);
-}
 
 static void masks_are_the_same(void **state)
 {
@@ -54,7 +37,7 @@ static void masks_are_the_same(void **state)
             const uint32_t light = test_random(&rng) % (uint32_t)loaded.light_count;
 
             stage_pose(s, 0, 0);
-            place_camera(&loaded, &rng);
+            test_random_view(&loaded, &rng);
             for (int m = 0; m < 2; m++) {
                 const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1, 1, 0, 0.0, ~0u, 0};
 

@@ -1,58 +1,15 @@
 /* test_fill.c - ends, scissors and patches against z-fail throughout: from random places in and around every scene the
  * masks differ in single pixels at most, and these lie on a border of the shadow or of a surface; fragments are never
  * more, and each measure comes up. */
-#include "gn_matrix.h"
 #include "gn_test.h"
 #include "stage.h"
+#include "views.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 96, HEIGHT = 72, VIEWS = 12, PIXELS = WIDTH * HEIGHT };
-
-/* From above, towards the middle: floors are seen. */
-static void look_down(scene *s, uint32_t *rng)
-{
-    double *m = s->camera.world, away[3], length = 0.0, flat;
-
-    away[0] = test_uniform(rng, -1, 1);
-    away[1] = test_uniform(rng, 0.3, 1.0);
-    away[2] = test_uniform(rng, -1, 1) + 0.01;
-    for (int i = 0; i < 3; i++) {
-        const double half = 0.5 * (s->bounds_max[i] - s->bounds_min[i]);
-
-        m[12 + i] = 0.5 * (s->bounds_max[i] + s->bounds_min[i]) + away[i] * (half + 1.0);
-        away[i] *= half + 1.0;
-        length += away[i] * away[i];
-    }
-    for (int i = 0; i < 3; i++)
-        m[8 + i] = away[i] / sqrt(length);
-    flat = sqrt(m[8] * m[8] + m[10] * m[10]);
-    m[0] = m[10] / flat;
-    m[1] = 0.0;
-    m[2] = -m[8] / flat;
-    m[4] = m[9] * m[2] - m[10] * m[1];
-    m[5] = m[10] * m[0] - m[8] * m[2];
-    m[6] = m[8] * m[1] - m[9] * m[0];
-}
-
-static void place_camera(scene *s, uint32_t *rng)
-{
-    static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
-    double q[4], at[3];
-
-    for (int i = 0; i < 4; i++)
-        q[i] = test_uniform(rng, -1, 1);
-    for (int i = 0; i < 3; i++) {
-        const double middle = 0.5 * (s->bounds_min[i] + s->bounds_max[i]);
-
-        at[i] = middle + test_uniform(rng, -0.7, 0.7) * 0.5 * (s->bounds_max[i] - s->bounds_min[i]);
-    }
-    gn_mat4_from_trs(s->camera.world, zero, q, one);
-    memcpy(s->camera.world + 12, at, sizeof at);
-}
 
 /* Whether a pixel or one beside it looks otherwise: lit, shadowed, or no surface. */
 static int is_border(const uint8_t *rgba, int pixel)
@@ -94,9 +51,9 @@ static void only_borders_move(void **state)
 
             stage_pose(s, 0, 0);
             if (view % 2)
-                look_down(&loaded, &rng);
+                test_view_from_above(&loaded, &rng);
             else
-                place_camera(&loaded, &rng);
+                test_random_view(&loaded, &rng);
             for (int m = 0; m < 2; m++) {
                 const stage_wish wish = {.method = m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL,
                                          .casting = 1,

@@ -137,9 +137,9 @@ static void turn(double model[16], uint32_t lump, double angle, const double at[
     gn_mat4_from_trs(model, at, rotation, scale);
 }
 
-static void look_at(gn_camera *camera, const double eye[3], const double at[3])
+void pile_look_at(double m[16], const double eye[3], const double at[3])
 {
-    double *m = camera->world, length = 0.0, flat;
+    double length = 0.0, flat;
 
     gn_mat4_identity(m);
     for (int i = 0; i < 3; i++)
@@ -186,7 +186,7 @@ void pile_pose(pile *p, uint32_t frame, double aspect)
         p->lights[i].position[2] = radius * sin(angle);
     }
     memset(&p->camera, 0, sizeof p->camera);
-    look_at(&p->camera, eye, at);
+    pile_look_at(p->camera.world, eye, at);
     p->camera.top = tan(pi / 8);
     p->camera.right = p->camera.top * aspect;
     p->camera.bottom = -p->camera.top;

@@ -32,6 +32,8 @@ typedef struct pile {
     gn_camera camera;
 } pile;
 
+/* Camera to world: upright, and not straight up or down. */
+void pile_look_at(double world[16], const double eye[3], const double at[3]);
 double pile_floor_half(uint32_t side);
 void pile_pose(pile *p, uint32_t frame, double aspect);
 #endif
