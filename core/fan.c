@@ -1,15 +1,84 @@
-/* fan.c - the dark cap as a fan over the silhouette: a triangle an edge (McGuire 2003, section 6), about the mesh's
- * hub.
+/* fan.c - the dark cap over the silhouette (McGuire 2003, section 6, the fan over O(s)), about a triangle an edge.
  *
- * On a plane a signed fan about any point closes the volume and counts what it encloses, however the silhouette is
- * tangled. At infinity the cap's shape does not matter either, since nothing is behind it; there all directions must
- * lie in an open half of the sphere, so that no triangle spans half of it (DESIGN.md, decision 5; McGuire's trap): the
- * light outside the caster's box is enough, the hub being inside. A fan about a point from which a silhouette turns
- * back covers some pixels three times for once: at infinity, where it would cover the image, it is taken only if all
- * edges run around the hub the same way, and then covers a direction exactly as often as the casting triangles do. */
+ * On a plane any triangles whose border is the silhouette close the volume and count what it encloses, however tangled
+ * it is. A fan about one point makes them all as long as the cap is wide, and of a fine mesh less than a pixel thin:
+ * rasterisers pay for the blocks of pixels that each of them touches. So the silhouette is walked in loops, and of a
+ * loop every other vertex is cut off, again and again until two are left: half of the triangles are as small as its
+ * edges, a quarter twice that. Loops of a mesh in several chunks are open in each; what joins their ends is a triangle
+ * about the mesh's hub, the same point in all chunks.
+ *
+ * At infinity the cap's shape does not matter either, since nothing is behind it; there all directions must lie in an
+ * open half of the sphere, so that no triangle spans half of it (DESIGN.md, decision 5; McGuire's trap): the light
+ * outside the caster's box is enough, the hub being inside. A silhouette that turns back may be covered more often than
+ * it encloses: at infinity, where that would cover the image, it is taken only if all edges run around the hub the same
+ * way. */
 #include "gni.h"
 
 #include <math.h>
+
+/* A triangle of far vertices, unless it has no area. */
+static uint16_t *put(uint16_t *out, uint16_t a, uint16_t b, uint16_t c)
+{
+    out[0] = a;
+    out[1] = b;
+    out[2] = c;
+    return out + (a != b && b != c && c != a ? 3 : 0);
+}
+
+/* Cuts every other vertex off a loop, until two are left. */
+static uint16_t *span_loop(uint16_t *loop, uint32_t count, uint16_t *out)
+{
+    while (count > 2) {
+        uint32_t i = 0, kept = 0;
+
+        for (; i + 2 < count; i += 2) {
+            out = put(out, loop[i], loop[i + 1], loop[i + 2]);
+            loop[kept++] = loop[i];
+        }
+        if (i + 1 < count)
+            out = put(out, loop[i], loop[i + 1], loop[0]);
+        loop[kept++] = loop[i];
+        count = kept;
+    }
+    return out;
+}
+
+uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
+                     const gni_walk *w, uint16_t *out)
+{
+    const uint16_t hub = (uint16_t)(2u * mesh->chunks[chunk].vertex_count + 1u);
+    const uint32_t edges = count / of_a_side;
+    uint16_t *at = out;
+
+    for (uint32_t e = 0; e < edges; e++) {
+        uint32_t *first = &w->first[sides[(size_t)e * of_a_side] / 2u];
+
+        w->next[e] = *first;
+        *first = e;
+    }
+    for (uint32_t start = 0; start < edges; start++) {
+        const uint16_t from = sides[(size_t)start * of_a_side];
+
+        while (w->first[from / 2u] != GNI_NONE) {
+            uint32_t length = 0;
+            uint16_t vertex = from;
+
+            do {
+                const uint32_t e = w->first[vertex / 2u];
+
+                w->loop[length++] = vertex + 1u;
+                w->first[vertex / 2u] = w->next[e];
+                vertex = sides[(size_t)e * of_a_side + 1];
+            } while (vertex != from && w->first[vertex / 2u] != GNI_NONE);
+            if (vertex != from) {
+                w->loop[length++] = vertex + 1u;
+                at = put(at, hub, from + 1u, vertex + 1u);
+            }
+            at = span_loop(w->loop, length, at);
+        }
+    }
+    return (uint32_t)(at - out);
+}
 
 /* From the light to a point of the mesh. */
 static void spoke(double out[3], const float point[3], const double model_view[16], const double light[4])

@@ -214,17 +214,14 @@ static inline void gni_vertex(double out[3], const gn_mesh *mesh, uint32_t verte
 /* volume.c: the index stream of one chunk of a volume, piece by piece. Each returns the indices written; a few more may
  * be overwritten. */
 
-/* At most this many indices for a triangle: three sides of two triangles each, both caps, and a cap on a patch; where
- * caps are fans, over no more edges than triangles or of closed meshes, they have fewer sides. */
-#define GNI_MOST_INDICES 27u
+/* At most this many indices for a triangle: three sides of two triangles each, a dark cap of a triangle for each of
+ * them on a patch, and both caps. */
+#define GNI_MOST_INDICES 33u
 #define GNI_SLACK        4u /* indices behind the last */
 
 /* converging: all far vertices are one point (a directional light to infinity): sides are single triangles and the dark
  * cap has no area. */
 uint32_t gni_put_sides(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int converging, uint16_t *out);
-/* sides: as written, of_a_side indices each; out may be the same. */
-uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
-                     uint16_t *out);
 uint32_t gni_put_dark_cap(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, uint16_t *out);
 /* Of the triangles whose casting is `turn`. */
 uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int8_t turn, uint16_t *out);
@@ -325,7 +322,17 @@ int gni_lies_before(const gni_hull *hull, const double plane[4]);
 int gni_is_before(const gni_hull *hull, const double plane[4]);
 int gni_light_is_outside(const gni_hull *box, const double light[4]);
 
-/* fan.c: whether all sides run round the hub the same way as the light sees them. light: view space, outside the
+/* fan.c: scratch of a walk along a silhouette. */
+typedef struct gni_walk {
+    uint32_t *first; /* [GN_CHUNK_VERTICES] of each vertex, an edge that starts there; GNI_NONE between calls */
+    uint32_t *next;  /* [edges] another from the same vertex */
+    uint16_t *loop;  /* [edges + 1] */
+} gni_walk;
+
+/* sides: as written, of_a_side indices each. No more triangles than sides. */
+uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
+                     const gni_walk *walk, uint16_t *out);
+/* Whether all sides run round the hub the same way as the light sees them. light: view space, outside the
  * caster's box, not directional. */
 int gni_runs_round_hub(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
                        const double model_view[16], const double light[4]);

@@ -113,6 +113,11 @@ struct gn_shadow_cache {
     uint32_t version, base_version, dirty[2], built;
 };
 
+/* The silhouette of a cap on a patch: sides, of which it takes the first two indices. */
+typedef struct gni_outline {
+    uint32_t first, count, of_a_side; /* in the plan's indices, or the cache's */
+} gni_outline;
+
 /* A plan while it is made. */
 typedef struct gni_draft {
     gn_context *context;
@@ -131,9 +136,11 @@ typedef struct gni_draft {
     double (*heights)[GN_MOST_PATCHES][2]; /* [object_count] over each patch; NAN: not known yet */
     gni_patch patches[GN_MOST_PATCHES];
     uint32_t patch_count;
-    int are_marked;   /* patches, in the stencil as it is now */
-    gn_record *flats; /* fans on patches, until the light's volumes are all made */
+    int are_marked;        /* patches, in the stencil as it is now */
+    gn_record *flats;      /* caps on patches, until the light's volumes are all made */
+    gni_outline *outlines; /* of each */
     uint32_t flat_count;
+    gni_walk walk;
     gni_hull all_lit;           /* a box around all that receives and is lit by it */
     gni_casting casting, group; /* of the caster at hand; group: those of one volume of it */
     uint8_t *end_of;
@@ -253,11 +260,11 @@ typedef struct gni_volume {
     int unpatched; /* as in gn_record */
 } gni_volume;
 
-/* slivers.c: the eye in the space of the object's mesh, and how near to it a triangle's plane must come to be drawn in
- * a light cap by z-pass. 0 where all must be drawn. */
-int gni_find_slivers(const gni_draft *d, uint32_t object, double eye[4], double *limit);
-uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, const double eye[4], double limit,
-                         uint16_t *out);
+/* slivers.c: the eye in the space of the volume's mesh, and between which of its heights over a triangle's plane that is
+ * drawn in a light cap by z-pass. 0 where all must be drawn. */
+int gni_find_slivers(const gni_draft *d, const gni_volume *volume, double eye[4], double heights[2]);
+uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, const double eye[4],
+                         const double heights[2], uint16_t *out);
 
 /* plan_volumes.c */
 /* Which parts of a volume its way of counting takes, and what way that is. */

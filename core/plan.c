@@ -89,6 +89,10 @@ static int lay_out(gni_draft *d, arena *a)
     d->heights = cut(a, s->object_count, sizeof *d->heights);
     d->records = cut(a, (records + GN_MOST_PATCHES * chunks) * s->light_count, sizeof *d->records);
     d->flats = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->flats);
+    d->outlines = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->outlines);
+    d->walk.first = cut(a, GN_CHUNK_VERTICES, sizeof *d->walk.first);
+    d->walk.next = cut(a, 3 * triangles, sizeof *d->walk.next);
+    d->walk.loop = cut(a, 3 * triangles + 1, sizeof *d->walk.loop);
     cut_casting(a, &d->casting, triangles);
     if (gni_must_end(s)) {
         cut_casting(a, &d->group, triangles);
@@ -213,6 +217,7 @@ static void start_plan(gni_draft *d)
 
     memset(plan, 0, sizeof *plan);
     memset(d->lights, 0, s->light_count * sizeof *d->lights);
+    memset(d->walk.first, 0xff, GN_CHUNK_VERTICES * sizeof *d->walk.first); /* GNI_NONE */
     plan->target = s->target;
     plan->blend_once = s->blend_once;
     plan->steps = d->steps;

@@ -127,9 +127,9 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const gni_casting *c
     int mcguire_case;
     const unsigned parts = gni_choose_parts(d, v, &mcguire_case);
     uint32_t silhouette = parts & GN_SIDES ? 0 : GNI_NONE;
-    double eye[4], limit = 0.0;
+    double eye[4], heights[2];
     const int slivers = mcguire_case == 1 && parts & GN_LIGHT_CAP && d->lights[d->light].method == GN_METHOD_STENCIL &&
-                        gni_find_slivers(d, v->object, eye, &limit);
+                        gni_find_slivers(d, v, eye, heights);
 
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         gn_record *r = &d->records[d->plan->record_count];
@@ -142,12 +142,12 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const gni_casting *c
         r->first_dark_cap += r->side_count;
         if (parts & GN_DARK_CAP && !converges) {
             r->fan = is_fan(d, v, r, casting->count, out, of_a_side);
-            r->dark_cap_count = r->fan ? gni_put_fan(mesh, c, out, r->side_count, of_a_side, at)
+            r->dark_cap_count = r->fan ? gni_put_fan(mesh, c, out, r->side_count, of_a_side, &d->walk, at)
                                        : gni_put_dark_cap(mesh, c, casting, at);
             at += r->dark_cap_count;
         }
         if (parts & GN_LIGHT_CAP && slivers) {
-            at += r->light_cap_count = gni_put_slivers(mesh, c, casting, eye, limit, at);
+            at += r->light_cap_count = gni_put_slivers(mesh, c, casting, eye, heights, at);
             r->slivers = 1;
         } else if (parts & GN_LIGHT_CAP) {
             at += r->light_cap_count = gni_put_light_cap(mesh, c, casting, 1, at);
@@ -228,48 +228,58 @@ void gni_note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t
         d->cheap_of[object] += cheap;
 }
 
-/* The fan of a chunk among its volume's records; 0 where it has none. */
-static int find_fan(const gni_draft *d, uint32_t first_record, uint32_t chunk, gn_record *fan)
+/* What a volume's record has of a cap on patches. Returns 1 where that is a cap too. */
+static int share_record(const gni_draft *d, uint32_t first_record, uint32_t chunk, gn_record *cap, gni_outline *outline)
 {
-    for (uint32_t i = first_record; i < d->plan->record_count; i++)
-        if (d->records[i].chunk == chunk && d->records[i].fan) {
-            fan->first_index = d->records[i].first_dark_cap;
-            fan->dark_cap_count = d->records[i].dark_cap_count;
-            fan->is_cached = d->records[i].is_cached;
-            fan->fan = 1;
-            return 1;
-        }
+    for (uint32_t i = first_record; i < d->plan->record_count; i++) {
+        const gn_record *r = &d->records[i];
+
+        if (r->chunk != chunk || r->side_count == 0)
+            continue;
+        outline->first = r->first_side;
+        outline->count = r->side_count;
+        outline->of_a_side = r->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? 3 : 6;
+        cap->first_index = r->first_dark_cap;
+        cap->dark_cap_count = r->dark_cap_count;
+        cap->fan = r->fan;
+        return r->fan;
+    }
     return 0;
 }
 
 /* The same from the cache. */
-static int find_kept_fan(const gni_stream *stream, int kind, uint32_t chunk, gn_record *fan)
+static void share_stream(const gni_stream *stream, int kind, uint32_t chunk, gn_record *cap, gni_outline *outline)
 {
-    uint32_t at = stream ? stream->first : 0;
+    uint32_t at = stream->first;
 
-    for (uint32_t c = 0; c < chunk && stream; c++)
+    for (uint32_t c = 0; c < chunk; c++)
         at += stream->parts[c].dark_cap + stream->parts[c].sides + stream->parts[c].light_cap +
               stream->parts[c].turned_cap;
-    if (!stream)
-        return 0;
-    fan->first_index = at;
-    fan->dark_cap_count = stream->parts[chunk].dark_cap;
-    fan->is_cached = 1;
-    fan->fan = kind == GNI_STREAM_FAN;
-    return 1;
+    cap->first_index = at;
+    cap->dark_cap_count = stream->parts[chunk].dark_cap;
+    cap->is_cached = 1;
+    cap->fan = kind == GNI_STREAM_FAN;
+    outline->first = at + stream->parts[chunk].dark_cap;
+    outline->count = stream->parts[chunk].sides;
+    outline->of_a_side = 6;
 }
 
-/* Or made for this frame. */
-static void make_fan(gni_draft *d, const gn_mesh *mesh, uint32_t chunk, gn_record *fan)
+/* Or made for this frame, behind an outline unless there is one. */
+static void make_cap(gni_draft *d, const gn_mesh *mesh, uint32_t chunk, gn_record *cap, gni_outline *outline)
 {
-    uint16_t *const out = d->indices + d->plan->index_count;
-    const uint32_t sides = gni_put_sides(mesh, chunk, &d->casting, 1, out);
+    uint16_t *at = d->indices + d->plan->index_count;
 
-    fan->first_index = d->plan->index_count;
-    fan->fan = is_better_fan(mesh, sides / 3, d->casting.count);
-    fan->dark_cap_count =
-        fan->fan ? gni_put_fan(mesh, chunk, out, sides, 3, out) : gni_put_dark_cap(mesh, chunk, &d->casting, out);
-    d->plan->index_count += fan->dark_cap_count;
+    if (outline->count == 0) {
+        outline->first = d->plan->index_count;
+        outline->of_a_side = 3;
+        at += outline->count = gni_put_sides(mesh, chunk, &d->casting, 1, at);
+    }
+    cap->first_index = (uint32_t)(at - d->indices);
+    cap->fan = is_better_fan(mesh, outline->count / outline->of_a_side, d->casting.count);
+    cap->dark_cap_count = cap->fan ? gni_put_fan(mesh, chunk, d->indices + outline->first, outline->count,
+                                                 outline->of_a_side, &d->walk, at)
+                                   : gni_put_dark_cap(mesh, chunk, &d->casting, at);
+    d->plan->index_count = cap->first_index + cap->dark_cap_count;
 }
 
 void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record)
@@ -282,23 +292,27 @@ void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint
     if (!stream)
         gni_know_casting(d, object);
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
-        gn_record shared = {0};
+        gn_record cap = {0};
+        gni_outline outline = {0, 0, 6};
 
-        if (!find_kept_fan(stream, kind, c, &shared) && !find_fan(d, first_record, c, &shared))
-            make_fan(d, mesh, c, &shared);
-        silhouette += shared.dark_cap_count / 3;
-        for (uint32_t p = 0; p < d->patch_count && shared.dark_cap_count; p++)
+        if (stream)
+            share_stream(stream, kind, c, &cap, &outline);
+        else if (!share_record(d, first_record, c, &cap, &outline))
+            make_cap(d, mesh, c, &cap, &outline);
+        silhouette += outline.count / outline.of_a_side;
+        for (uint32_t p = 0; p < d->patch_count && cap.dark_cap_count; p++)
             if (extent->on[p] == GNI_FANS_PATCH) {
                 const gni_volume v = {object, NULL, extent, GN_FAR_ENDED, d->patches[p].plane, 0.0, 0};
-                gn_record *r = &d->flats[d->flat_count++];
+                gn_record *r = &d->flats[d->flat_count];
 
+                d->outlines[d->flat_count++] = outline;
                 start_record(r, d, &v, extent->shadow[p], c);
-                r->first_index = r->first_dark_cap = r->first_side = shared.first_index;
-                r->dark_cap_count = shared.dark_cap_count;
-                r->is_cached = shared.is_cached;
+                r->first_index = r->first_dark_cap = r->first_side = cap.first_index;
+                r->dark_cap_count = cap.dark_cap_count;
+                r->is_cached = cap.is_cached;
                 r->parts = GN_DARK_CAP;
                 r->patch = p + 1;
-                r->fan = shared.fan;
+                r->fan = cap.fan;
             }
     }
     gni_note_layers(d, object, stream ? d->slot->triangles : d->casting.count, silhouette);

@@ -3,27 +3,33 @@
 
 #include <string.h>
 
-#define MOST_INDICES 24 /* of a triangle: three sides and both caps; of closed meshes far fewer */
+#define MOST_INDICES 30 /* of a triangle: three sides of two triangles, a dark cap of one for each, a light cap */
 
-/* One chunk. Sides are written first, since a fan is made of them, and moved behind the dark cap. */
-static uint32_t put_chunk(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int kind, uint16_t *out,
-                          gni_stream *stream)
+static void reverse(uint16_t *indices, uint32_t count)
+{
+    for (uint32_t i = 0; i < count / 2; i++) {
+        const uint16_t first = indices[i];
+
+        indices[i] = indices[count - 1 - i];
+        indices[count - 1 - i] = first;
+    }
+}
+
+/* One chunk. Sides are written first, since a fan is made of them, and change places with the dark cap. */
+static uint32_t put_chunk(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int kind, const gni_walk *walk,
+                          uint16_t *out, gni_stream *stream)
 {
     const int converging = kind == GNI_STREAM_CONVERGING;
     const uint32_t sides = gni_put_sides(mesh, chunk, c, converging, out);
     uint32_t dark = 0, n = sides;
 
-    if (kind == GNI_STREAM_FAN) {
-        dark = sides / 2;
-        memmove(out + dark, out, sides * sizeof *out);
-        gni_put_fan(mesh, chunk, out + dark, sides, 6, out);
-    } else if (kind == GNI_STREAM_CAP) {
-        for (uint32_t cluster = mesh->chunks[chunk].first_triangle / GNI_CLUSTER;
-             cluster * GNI_CLUSTER < mesh->chunks[chunk].first_triangle + mesh->chunks[chunk].triangle_count; cluster++)
-            dark += 3 * gni_count_bits(c->bits[cluster]);
-        memmove(out + dark, out, sides * sizeof *out);
-        gni_put_dark_cap(mesh, chunk, c, out);
-    }
+    if (kind == GNI_STREAM_FAN)
+        dark = gni_put_fan(mesh, chunk, out, sides, 6, walk, out + sides);
+    else if (kind == GNI_STREAM_CAP)
+        dark = gni_put_dark_cap(mesh, chunk, c, out + sides);
+    reverse(out, sides);
+    reverse(out + sides, dark);
+    reverse(out, sides + dark);
     n += dark;
     stream->parts[chunk].dark_cap = dark;
     stream->parts[chunk].sides = sides;
@@ -53,7 +59,7 @@ const gni_stream *gni_make_stream(gni_draft *d, uint32_t object_index, int kind)
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
         const uint32_t first = count;
 
-        count += put_chunk(mesh, c, &d->casting, kind, out + count, stream);
+        count += put_chunk(mesh, c, &d->casting, kind, &d->walk, out + count, stream);
         slot->silhouette += stream->parts[c].sides / (kind == GNI_STREAM_CONVERGING ? 3 : 6);
         if (mesh->info.chunk_count == 1)
             slot->runs_round =

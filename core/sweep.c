@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define PASSES 64
-#define WAYS   12    /* in which the lines run: where a silhouette runs along them they cross much of it */
+#define WAYS   12   /* in which the lines run: where a silhouette runs along them they cross much of it */
 #define ROOM   0.01 /* of a corner's distance: so far before the plane through the light it must lie */
 #define LOOSE  1e-3 /* of a bin: rounding stays inside */
 
@@ -123,30 +123,28 @@ static int add_edge(const bins *b, const gn_mesh *mesh, const uint32_t *vertices
     return 1;
 }
 
-/* Adds the silhouette of a record: that which its sides stand on, or its fan on a patch; or the edges of its cap
- * there. */
-static int add_record(const gni_draft *d, const gn_record *r, const bins *in_view, int32_t differences[GNI_BINS + 1])
+/* Adds the silhouette of a record: that which its sides stand on, or the outline of its cap on a patch. */
+static int add_record(const gni_draft *d, uint32_t record, const bins *in_view, int32_t differences[GNI_BINS + 1])
 {
+    const gn_record *r = &d->records[record];
     const gn_object *object = &d->scene->objects[r->object];
     const gn_mesh *mesh = object->mesh;
     const uint32_t *vertices = mesh->chunk_vertices + mesh->chunks[r->chunk].first_vertex;
-    const uint32_t a_side = r->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? 3 : 6;
     const uint16_t *from = r->is_cached ? d->scene->cache->indices : d->indices;
-    const uint16_t *sides = from + r->first_side, *cap = from + r->first_dark_cap;
+    gni_outline outline = {r->first_side, r->side_count,
+                           r->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? 3 : 6};
     double model_view[16];
     bins b = *in_view;
     int all_fit = 1;
 
+    if (r->patch)
+        outline = d->outlines[record + d->flat_count - d->plan->record_count];
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
     row_by_matrix(b.along, model_view);
     row_by_matrix(b.depth, model_view);
-    for (uint32_t i = 0; i < r->side_count; i += a_side) /* its first two are its near vertices */
-        all_fit &= add_edge(&b, mesh, vertices, sides[i], sides[i + 1], differences);
-    for (uint32_t i = 0; i < r->dark_cap_count && r->patch; i += 3) {
-        all_fit &= add_edge(&b, mesh, vertices, cap[i + 1], cap[i + 2], differences);
-        for (uint32_t k = 0; k < 2 && !r->fan; k++)
-            all_fit &= add_edge(&b, mesh, vertices, cap[i + 2 * k], cap[i + (1 - k)], differences);
-    }
+    from += outline.first;
+    for (uint32_t i = 0; i < outline.count; i += outline.of_a_side)
+        all_fit &= add_edge(&b, mesh, vertices, from[i], from[i + 1], differences);
     return all_fit;
 }
 
@@ -159,7 +157,7 @@ static uint32_t sweep(gni_draft *d, uint32_t first_record, uint32_t only, double
         return UINT32_MAX;
     memset(d->layers->bins, 0, sizeof d->layers->bins);
     for (uint32_t i = first_record; i < d->plan->record_count; i++)
-        if ((only == GNI_NONE || d->records[i].object == only) && !add_record(d, &d->records[i], &b, differences))
+        if ((only == GNI_NONE || d->records[i].object == only) && !add_record(d, i, &b, differences))
             return UINT32_MAX;
     for (int i = 0; i < GNI_BINS; i++) {
         crossed += differences[i];

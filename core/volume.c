@@ -151,17 +151,6 @@ uint32_t gni_put_sides(const gn_mesh *mesh, uint32_t chunk_index, const gni_cast
     return (uint32_t)(at - out);
 }
 
-uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
-                     uint16_t *out)
-{
-    const uint32_t hub = 2u * mesh->chunks[chunk].vertex_count + 1u;
-    uint16_t *at = out;
-
-    for (uint32_t i = 0; i < count; i += of_a_side)
-        at = put(at, hub, sides[i] + 1u, sides[i + 1] + 1u);
-    return (uint32_t)(at - out);
-}
-
 uint32_t gni_put_dark_cap(const gn_mesh *mesh, uint32_t chunk_index, const gni_casting *c, uint16_t *out)
 {
     const gn_chunk *chunk = &mesh->chunks[chunk_index];

@@ -128,6 +128,16 @@ static uint64_t hash(uint64_t h, const void *data, size_t size)
     return h;
 }
 
+static int make_walk(gni_walk *w, size_t triangles)
+{
+    w->first = malloc(GN_CHUNK_VERTICES * sizeof *w->first);
+    w->next = malloc(3 * triangles * sizeof *w->next);
+    w->loop = malloc((3 * triangles + 1) * sizeof *w->loop);
+    if (w->first)
+        memset(w->first, 0xff, GN_CHUNK_VERTICES * sizeof *w->first);
+    return w->first && w->next && w->loop;
+}
+
 int main(int count, char **arguments)
 {
     gn_context *context;
@@ -135,6 +145,7 @@ int main(int count, char **arguments)
     int step = 0, times;
     uint16_t *out;
     gni_casting *c;
+    gni_walk walk;
     uint64_t sum = 14695981039346656037u;
     uint32_t looked_at = 0, edges = 0;
 
@@ -156,7 +167,9 @@ int main(int count, char **arguments)
     }
     c = &m.mesh->scratch;
     out = malloc((GNI_MOST_INDICES * m.triangle_count + GNI_SLACK) * sizeof *out);
-    for (int i = 0; i < times && out; i++) {
+    if (!out || !make_walk(&walk, m.triangle_count))
+        return 1;
+    for (int i = 0; i < times; i++) {
         const float *low = m.mesh->info.box_min, *high = m.mesh->info.box_max;
         double light[4] = {0, 0, 0, 1};
 
@@ -186,7 +199,7 @@ int main(int count, char **arguments)
             edges += n / 6;
             if (step == CAPS || step == ALL_CAPS || step == STREAMS) {
                 n += m.mesh->info.solid_part_count == m.mesh->info.part_count
-                         ? gni_put_fan(m.mesh, chunk, out, n, 6, out + n)
+                         ? gni_put_fan(m.mesh, chunk, out, n, 6, &walk, out + n)
                          : gni_put_dark_cap(m.mesh, chunk, c, out + n);
                 n += gni_put_light_cap(m.mesh, chunk, c, 1, out + n);
                 n += gni_put_light_cap(m.mesh, chunk, c, -1, out + n);
@@ -198,6 +211,9 @@ int main(int count, char **arguments)
     printf("%lu,%lu,%lu,%016llx\n", (unsigned long)m.triangle_count, (unsigned long)looked_at, (unsigned long)edges,
            (unsigned long long)sum);
     free(out);
+    free(walk.first);
+    free(walk.next);
+    free(walk.loop);
     pile_drop(&m);
     gn_context_destroy(context);
     return 0;
