@@ -5,10 +5,20 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 extern const platform_kind platform_egl, platform_osmesa;
 
 const platform_kind *const platform_kinds[] = {&platform_egl, &platform_osmesa, NULL};
+
+static void keep_memory(void)
+{
+#ifdef __GLIBC__
+    mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
 
 platform *platform_open(const char *name, const platform_desc *desc, char message[PLATFORM_MESSAGE])
 {
@@ -16,6 +26,7 @@ platform *platform_open(const char *name, const platform_desc *desc, char messag
     int known = 0;
 
     message[0] = '\0';
+    keep_memory();
     for (int i = 0; platform_kinds[i]; i++) {
         char why[PLATFORM_MESSAGE] = "";
         platform *p;

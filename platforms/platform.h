@@ -36,7 +36,8 @@ struct platform {
 extern const platform_kind *const platform_kinds[];
 
 /* Opens the kind of that name, or with NULL the first that works. On failure NULL, with each kind's own reason in
- * message. */
+ * message. The C library is told to keep what is freed: Mesa's rasterisers take megabytes for each frame, and a system
+ * that gets them back brings every page anew. */
 platform *platform_open(const char *name, const platform_desc *desc, char message[PLATFORM_MESSAGE]);
 
 /* In the form that gn_gles_create() takes; user is the platform. */
