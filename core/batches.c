@@ -92,7 +92,7 @@ static void emit(const cutter *c)
     most = gni_most_layers(&l->cells, &l->batch, NULL);
     about->layers = about->layers > most ? about->layers : most;
     gni_find_bits(c->mesh, &d->piece);
-    gni_add_records(d, c->volume, &d->piece);
+    gni_add_records(d, c->volume, 1, &d->piece);
 }
 
 /* Copies list[count] to ring[] and adds, marked, the neighbours beyond edges where two triangles cancel; of the same

@@ -51,8 +51,7 @@ int gni_do_rectangles_meet(const uint32_t a[4], const uint32_t b[4])
     return a[0] < b[0] + b[2] && b[0] < a[0] + a[2] && a[1] < b[1] + b[3] && b[1] < a[1] + a[3];
 }
 
-/* The least value along a normal of what lies in both box and ball. */
-static double lowest_of(const double normal[3], const gni_hull *box, const double ball[4])
+double gni_lowest_of(const double normal[3], const gni_hull *box, const double ball[4])
 {
     double lowest = INFINITY;
 
@@ -63,24 +62,22 @@ static double lowest_of(const double normal[3], const gni_hull *box, const doubl
 
 int gni_is_object_before(const gni_draft *d, uint32_t object, const double plane[4])
 {
-    const double lowest = lowest_of(plane, &d->boxes[object], d->balls[object]);
+    const double lowest = gni_lowest_of(plane, &d->boxes[object], d->balls[object]);
 
     return lowest + plane[3] > GNI_MARGIN * (fabs(lowest) + fabs(plane[3]));
 }
 
-void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object)
+void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object, const gni_hull *box, const uint32_t rectangle[4])
 {
-    const gni_hull *box = &d->boxes[object];
-
-    gni_join_rectangles(e->needed, d->rectangles[object]);
+    gni_join_rectangles(e->needed, rectangle);
     for (int n = 0; n < GNI_NORMALS; n++)
-        e->lowest[n] = fmin(e->lowest[n], lowest_of(e->normals[n], box, d->balls[object]));
+        e->lowest[n] = fmin(e->lowest[n], gni_lowest_of(e->normals[n], box, d->balls[object]));
     for (int i = 0; i < box->point_count; i++) {
         e->deepest = fmax(e->deepest, -box->points[i][2]);
         e->greatest =
             fmax(e->greatest, fmax(fabs(box->points[i][0]), fmax(fabs(box->points[i][1]), fabs(box->points[i][2]))));
     }
-    e->touched++;
+    d->touched[e->touched++] = object;
 }
 
 void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object)
@@ -88,7 +85,8 @@ void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object)
     const double *light = d->bounds.light;
     const gni_hull *box = &d->boxes[object];
 
-    e->is_ended = 0;
+    e->is_ended = e->is_detached = 0;
+    e->start_move = light[3] == 0.0 ? 0.0 : 1.0;
     e->touched = 0;
     e->deepest = -INFINITY;
     e->greatest = 0.0;
@@ -135,60 +133,88 @@ static double length_to(const double normal[3], double highest, double lowest, c
     return (from_end / gap - 1.0) * (sqrt(gni_dot(spoke, spoke)) + ball[3]);
 }
 
-/* The caster's box and its end; the volume stays without end where a corner of the box, which is no vertex, has
+int gni_move_box(double out[8][3], const gni_hull *box, const double light[4], const double plane[4])
+{
+    const double of_light = gni_dot(plane, light) + plane[3] * light[3];
+    double extrusion[16];
+
+    gni_extrusion(extrusion, light, plane);
+    for (int i = 0; i < 8; i++) {
+        const double w = of_light - light[3] * (gni_dot(plane, box->points[i]) + plane[3]);
+
+        if (!(w > of_light / (2.0 * MOST)))
+            return 0;
+        gn_mat4_transform(out[i], extrusion, box->points[i], 1.0);
+        for (int k = 0; k < 3; k++)
+            out[i][k] /= w;
+    }
+    return 1;
+}
+
+double gni_behind(const gni_extent *e, const gni_draft *d, double lowest)
+{
+    const gn_camera *camera = &d->scene->camera;
+    const double depth = camera->zfar != 0.0 ? fmin(e->deepest, camera->zfar) : e->deepest;
+    const double steps = STEPS * fmax(depth, camera->znear) / ldexp(camera->znear, d->scene->target.depth_bits);
+
+    lowest -= fabs(lowest) * steps + GNI_MARGIN * 8.0 * e->greatest;
+    return lowest - fabs(lowest) * steps; /* it is farther from the eye now */
+}
+
+void gni_find_moves(double moves[2], const gni_draft *d, uint32_t object, const double normal[3], double level)
+{
+    const double *light = d->bounds.light, other[3] = {-normal[0], -normal[1], -normal[2]};
+    const double of_light = gni_dot(normal, light);
+    const double lowest = gni_lowest_of(normal, &d->boxes[object], d->balls[object]);
+    const double highest = -gni_lowest_of(other, &d->boxes[object], d->balls[object]);
+
+    if (light[3] == 0.0) {
+        const double sun = sqrt(gni_dot(light, light));
+
+        moves[0] = (lowest - level) / of_light * sun;
+        moves[1] = (highest - level) / of_light * sun;
+    } else {
+        moves[0] = (of_light - level) / (of_light - lowest);
+        moves[1] = (of_light - level) / (of_light - highest);
+    }
+}
+
+/* The caster's box, or where the volume starts, and its end; the volume stays without end where a corner of the box, which is no vertex, has
  * none. */
 static void ended_hull(gni_hull *volume, const gni_extent *e, const gni_hull *box, const double light[4])
 {
-    const double of_light = gni_dot(e->end_plane, light) + e->end_plane[3] * light[3];
     gni_hull out = *box;
-    double extrusion[16];
 
-    gni_extrusion(extrusion, light, e->end_plane);
     out.point_count = 16;
-    for (int i = 0; i < 8; i++) {
-        const double *p = box->points[i];
-        const double w = of_light - light[3] * (gni_dot(e->end_plane, p) + e->end_plane[3]);
-
-        if (!(w > of_light / (2.0 * MOST)))
-            return;
-        gn_mat4_transform(out.points[8 + i], extrusion, p, 1.0);
-        for (int k = 0; k < 3; k++)
-            out.points[8 + i][k] /= w;
-    }
-    *volume = out;
+    if ((!e->is_detached || gni_move_box(out.points, box, light, e->start_plane)) &&
+        gni_move_box(out.points + 8, box, light, e->end_plane))
+        *volume = out;
 }
 
 static void choose_end(gni_extent *e, const gni_draft *d, uint32_t object)
 {
-    const gn_camera *camera = &d->scene->camera;
     const gni_hull *box = &d->boxes[object];
     const double *light = d->bounds.light, *ball = d->balls[object];
-    const double depth = camera->zfar != 0.0 ? fmin(e->deepest, camera->zfar) : e->deepest;
-    const double steps = STEPS * fmax(depth, camera->znear) / ldexp(camera->znear, d->scene->target.depth_bits);
     double best = INFINITY;
 
     for (int n = 0; n < GNI_NORMALS; n++) {
         const double *normal = e->normals[n], other[3] = {-normal[0], -normal[1], -normal[2]};
-        const double of_light = gni_dot(normal, light), own = lowest_of(normal, box, ball);
-        const double highest = -lowest_of(other, box, ball);
+        const double highest = -gni_lowest_of(other, box, ball);
         double lowest = e->lowest[n], length;
 
         if (light[3] != 0.0 && d->bounds.reach < INFINITY)
-            lowest = fmax(lowest, of_light - d->bounds.reach);
-        lowest = fmin(lowest, own);
-        lowest -= fabs(lowest) * steps + GNI_MARGIN * 8.0 * e->greatest;
-        lowest -= fabs(lowest) * steps; /* the end is farther from the eye now */
+            lowest = fmax(lowest, gni_dot(normal, light) - d->bounds.reach);
+        lowest = gni_behind(e, d, fmin(lowest, gni_lowest_of(normal, box, ball)));
         length = length_to(normal, highest, lowest, ball, light);
         if (length < best) {
             best = length;
-            e->moves[0] =
-                light[3] == 0.0 ? (own - lowest) / (highest - lowest) * length : (of_light - lowest) / (of_light - own);
-            e->moves[1] = light[3] == 0.0 ? length : (of_light - lowest) / (of_light - highest);
             memcpy(e->end_plane, normal, 3 * sizeof *normal);
             e->end_plane[3] = -lowest;
         }
     }
     e->is_ended = best < INFINITY;
+    if (e->is_ended)
+        gni_find_moves(e->moves, d, object, e->end_plane, -e->end_plane[3]);
 }
 
 /* The image of the balls around a caster whose vertices are moved by `from` to `to`: they hold all that lies between.
@@ -230,16 +256,14 @@ void gni_choose_scissor(uint32_t out[4], const gni_draft *d, const uint32_t imag
         memcpy(out, light, sizeof drawn);
 }
 
-int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume)
+int gni_see_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume)
 {
     uint32_t of_ball[4];
 
-    if (!(d->scene->without & GN_MEASURE_ENDS) && !d->region && e->touched > 0)
-        choose_end(e, d, object);
     if (e->is_ended)
         ended_hull(volume, e, &d->boxes[object], d->bounds.light);
     gni_find_rectangle(e->image, volume, &d->scene->camera, &d->scene->target);
-    if (e->is_ended && find_moved_image(of_ball, d, object, d->bounds.light[3] == 0.0 ? 0.0 : 1.0, e->moves[1]))
+    if (e->is_ended && find_moved_image(of_ball, d, object, e->start_move, e->moves[1]))
         gni_meet_rectangles(e->image, of_ball);
     gni_choose_scissor(e->scissor, d, e->image, e->needed);
     gni_meet_rectangles(e->image, e->scissor);
@@ -255,4 +279,11 @@ int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull 
         gni_meet_rectangles(e->end_image, of_ball);
     }
     return e->image[2] > 0 && e->image[3] > 0;
+}
+
+int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume)
+{
+    if (!(d->scene->without & GN_MEASURE_ENDS) && !d->region && e->touched > 0)
+        choose_end(e, d, object);
+    return gni_see_extent(e, d, object, volume);
 }

@@ -80,6 +80,15 @@ uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides,
     return (uint32_t)(at - out);
 }
 
+void gni_put_near_fan(const uint16_t *fan, uint32_t count, uint16_t *out)
+{
+    for (uint32_t i = 0; i < count; i += 3) {
+        out[i] = (uint16_t)(fan[i] - 1u);
+        out[i + 1] = (uint16_t)(fan[i + 2] - 1u);
+        out[i + 2] = (uint16_t)(fan[i + 1] - 1u);
+    }
+}
+
 /* From the light to a point of the mesh. */
 static void spoke(double out[3], const float point[3], const double model_view[16], const double light[4])
 {

@@ -214,9 +214,9 @@ static inline void gni_vertex(double out[3], const gn_mesh *mesh, uint32_t verte
 /* volume.c: the index stream of one chunk of a volume, piece by piece. Each returns the indices written; a few more may
  * be overwritten. */
 
-/* At most this many indices for a triangle: three sides of two triangles each, a dark cap of a triangle for each of
- * them on a patch, and both caps. */
-#define GNI_MOST_INDICES 33u
+/* At most this many indices for a triangle: a light cap, three sides of two triangles each, and two caps over them, a
+ * triangle for each. */
+#define GNI_MOST_INDICES 39u
 #define GNI_SLACK        4u /* indices behind the last */
 
 /* converging: all far vertices are one point (a directional light to infinity): sides are single triangles and the dark
@@ -332,6 +332,9 @@ typedef struct gni_walk {
 /* sides: as written, of_a_side indices each. No more triangles than sides. */
 uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
                      const gni_walk *walk, uint16_t *out);
+/* The same fan of near vertices, seen from the other side. */
+void gni_put_near_fan(const uint16_t *fan, uint32_t count, uint16_t *out);
+
 /* Whether all sides run round the hub the same way as the light sees them. light: view space, outside the
  * caster's box, not directional. */
 int gni_runs_round_hub(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,

@@ -86,7 +86,7 @@ enum {
 typedef struct gni_stream {
     uint32_t first, room, count; /* count 0: not made */
     struct {
-        uint32_t dark_cap, sides, light_cap, turned_cap; /* indices, in this order */
+        uint32_t light_cap, sides, dark_cap, near_cap, turned_cap; /* indices, in this order */
     } parts[GNI_CACHED_CHUNKS];
 } gni_stream;
 
@@ -113,6 +113,13 @@ struct gn_shadow_cache {
     uint32_t version, base_version, dirty[2], built;
 };
 
+/* narrow.c: of a receiver, in the light at hand, what others' volumes must reach. */
+typedef struct gni_narrow {
+    enum { GNI_UNKNOWN, GNI_WHOLE, GNI_NARROWED, GNI_NOTHING } is;
+    gni_hull box;
+    uint32_t rectangle[4];
+} gni_narrow;
+
 /* The silhouette of a cap on a patch: sides, of which it takes the first two indices. */
 typedef struct gni_outline {
     uint32_t first, count, of_a_side; /* in the plan's indices, or the cache's */
@@ -131,6 +138,9 @@ typedef struct gni_draft {
     gn_plan_caster *casters;
     gni_hull *boxes;                       /* [object_count] of objects, in view space */
     double (*balls)[4];                    /* [object_count] centre and radius of a ball around each */
+    gni_narrow *narrow;                    /* [object_count] */
+    uint64_t *away[3];                     /* [clusters of the largest] scratch of narrow.c */
+    uint32_t *touched;                     /* [object_count] by the extent at hand */
     uint32_t (*rectangles)[4];             /* [object_count] pixels in which they may be seen */
     uint8_t *is_in;                        /* [object_count] of the light at hand: GNI_IN_* */
     double (*heights)[GN_MOST_PATCHES][2]; /* [object_count] over each patch; NAN: not known yet */
@@ -192,28 +202,49 @@ void gni_choose_scissor(uint32_t out[4], const gni_draft *d, const uint32_t imag
 typedef struct gni_extent {
     gni_on_patch on[GN_MOST_PATCHES];    /* of each patch of the frame */
     uint32_t shadow[GN_MOST_PATCHES][4]; /* where a fan is seen */
-    int is_ended;
-    double end_plane[4];             /* view space, positive where the caster is */
-    uint32_t scissor[4];             /* pixels where it must be counted, or more */
-    uint32_t image[4], end_image[4]; /* of them, those in which it may be seen, and its end */
+    int is_ended, is_detached;           /* detached: it starts on a plane, and not at the caster */
+    double start_plane[4];               /* view space, positive where the caster is */
+    double end_plane[4];                 /* the same */
+    uint32_t scissor[4];                 /* pixels where it must be counted, or more */
+    uint32_t image[4], end_image[4];     /* of them, those in which it may be seen, and its end */
 
     /* while it is found */
     double normals[GNI_NORMALS][3], lowest[GNI_NORMALS]; /* of what is touched, along the normals */
     double deepest, greatest;                            /* view distance and coordinate of what is touched */
-    double
-        moves[2]; /* of vertices to the end, least and most: factors of their distance from the light, or distances */
-    uint32_t touched, needed[4]; /* how many, and the pixels of their images */
+    double moves[2];             /* of vertices to the end, least and most: factors of their distance from the light, or
+                            distances */
+    double start_move;           /* the least to the start */
+    uint32_t touched, needed[4]; /* how many, in gni_draft.touched, and the pixels of their images */
 } gni_extent;
 
 /* Of a caster. */
 void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object);
 /* Whether all of an object surely lies where the plane, of unit normal, is positive. */
 int gni_is_object_before(const gni_draft *d, uint32_t object, const double plane[4]);
-/* Its volume may shadow this object. */
-void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object);
+/* Its volume may shadow this object, or itself. */
+void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object, const gni_hull *box, const uint32_t rectangle[4]);
 /* Chooses end and scissor. volume: on entry without end; becomes what is drawn. Returns 0 when nothing is seen of
  * what it may shadow. */
 int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume);
+/* The same of one whose start and end are known. */
+int gni_see_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume);
+/* The least value along a normal of what lies in both box and ball. */
+double gni_lowest_of(const double normal[3], const gni_hull *box, const double ball[4]);
+/* A level along a normal below another, by more than depth can confuse. */
+double gni_behind(const gni_extent *e, const gni_draft *d, double lowest);
+/* The least and the most that the caster's vertices are moved to a level: as gni_extent.moves. */
+void gni_find_moves(double moves[2], const gni_draft *d, uint32_t object, const double normal[3], double level);
+/* The corners of a box moved to a plane; 0 where one has no place there. */
+int gni_move_box(double out[8][3], const gni_hull *box, const double light[4], const double plane[4]);
+
+const gni_narrow *gni_narrow_receiver(const gni_draft *d, uint32_t object);
+
+/* intervals.c */
+#define GNI_MOST_INTERVALS 4
+/* Cuts an ended extent into those that are needed and seen. Returns how many. */
+uint32_t gni_cut_extent(gni_extent out[GNI_MOST_INTERVALS], const gni_extent *e, const gni_draft *d, uint32_t object);
+
+int gni_is_exempt(const gn_light *light, uint32_t object);
 
 /* patches.c */
 void gni_find_patches(gni_draft *d);
@@ -255,7 +286,8 @@ typedef struct gni_volume {
     const gni_case *at_hand;
     const gni_extent *extent; /* its scissor and image */
     gn_far far_end;
-    const double *end_plane; /* view space; not read where there is a reach */
+    const double *start_plane; /* NULL: it starts at the caster */
+    const double *end_plane;   /* view space; not read where there is a reach */
     double end_reach;
     int unpatched; /* as in gn_record */
 } gni_volume;
@@ -280,12 +312,12 @@ void gni_plane_before(double out[4], const double plane[4], const double m[16]);
  * it is not known. */
 void gni_note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t silhouette);
 /* Records from the slot at hand; 0 where it has no room. */
-int gni_add_kept_records(gni_draft *d, const gni_volume *volume);
+int gni_add_kept_records(gni_draft *d, const gni_volume *volumes, uint32_t count);
 /* Fans of the same caster on patches, into d->flats. first_record: of its volume, if it has one. */
 void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record);
-/* Records of one volume: a record for each chunk that has any of it. Returns the sum of the silhouette's weights, or
- * GNI_NONE where no sides are drawn. */
-uint32_t gni_add_records(gni_draft *d, const gni_volume *volume, const gni_casting *casting);
+/* Records of volumes of one caster, which share their indices: a record for each chunk that has any of each. Returns the
+ * sum of the silhouette's weights, or GNI_NONE where no sides are drawn. */
+uint32_t gni_add_records(gni_draft *d, const gni_volume *volumes, uint32_t count, const gni_casting *casting);
 
 /* sweep.c: no point has more layers of the records from first_record on than this; UINT32_MAX where that is not
  * known. */

@@ -313,7 +313,8 @@ typedef enum gn_far {
 enum {
     GN_MEASURE_ENDS = 1,     /* volumes end right behind the last thing that they may shadow, or at the light's reach */
     GN_MEASURE_SCISSORS = 2, /* and are counted only where such things are seen */
-    GN_MEASURE_PATCHES = 4   /* on flat receivers projections are counted, and volumes reach the others only */
+    GN_MEASURE_PATCHES = 4,  /* on flat receivers projections are counted, and volumes reach the others only */
+    GN_MEASURE_INTERVALS = 8 /* ended volumes are left out between the things that they may shadow */
 };
 
 #define GN_MOST_PATCHES 3 /* planes whose flat receivers need no volumes; two bits of stencil name them */
@@ -341,29 +342,32 @@ typedef struct gn_scene {
     unsigned without;       /* to measure them: a set of gn_measure that the method stencil does without */
 } gn_scene;
 
-enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4 };
+enum { GN_SIDES = 1, GN_LIGHT_CAP = 2, GN_DARK_CAP = 4, GN_NEAR_CAP = 8 };
 
-/* One chunk of one caster's volume for one light. Its indices stand in gn_plan.indices, or in gn_plan.cached_indices,
- * from first_index on: sides and dark cap in either order, light cap, turned light cap. The last is the part of the
- * light cap whose triangles cast turned round; it keeps its drawn order of vertices (DESIGN.md, decision 4), so that
- * its front counts as back. */
+/* One chunk of one caster's volume for one light, or of an interval of it. Its indices stand in gn_plan.indices, or in
+ * gn_plan.cached_indices, from first_index on: light cap, sides, dark cap, near cap. The turned light cap stands apart,
+ * the part of the light cap whose triangles cast turned round; it keeps its drawn order of vertices (DESIGN.md, decision
+ * 4), so that its front counts as back. The near cap closes an interval that does not start at the caster. */
 typedef struct gn_record {
     uint32_t light, object, chunk;
-    unsigned parts; /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: those with triangles */
+    unsigned parts; /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP, GN_NEAR_CAP: those with triangles */
     int is_cached;  /* its indices are in gn_plan.cached_indices */
-    uint32_t first_index, first_side, first_dark_cap;
-    uint32_t side_count, dark_cap_count, light_cap_count, turned_cap_count; /* indices */
-    int fan;          /* the dark cap is a fan over the silhouette */
+    uint32_t first_index, first_side, first_dark_cap, first_turned_cap;
+    uint32_t light_cap_count, side_count, dark_cap_count, near_cap_count, turned_cap_count; /* indices */
+    int fan;          /* the dark cap is spanned over the silhouette */
     uint32_t patch;   /* not 0: a projection onto this patch, its dark cap alone, counted where the patch is seen */
     int unpatched;    /* counted only where no patch is seen */
     int slivers;      /* of the light cap only triangles that are seen nearly edge-on */
     int mcguire_case; /* 1: by z-pass; 2, 3: by z-fail; 0: on a patch */
     int mirrored;     /* the model matrix swaps front and back */
+    int detached;     /* it starts on start_plane, and not at the caster */
     gn_far far_end;
-    double end_plane[4]; /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
-    double end_reach;    /* not 0: no plane; it ends at so many times its distance from the light, or so much farther */
-    float far_matrix[16]; /* a far vertex's clip position is this times its position */
-    uint32_t scissor[4];  /* x, y, width, height in pixels: within the light's; nothing outside needs it */
+    double start_plane[4]; /* world */
+    double end_plane[4];   /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
+    double end_reach; /* not 0: no plane; it ends at so many times its distance from the light, or so much farther */
+    float near_matrix[16]; /* a near vertex's clip position is this times its position: the object's, if not detached */
+    float far_matrix[16];  /* a far vertex's */
+    uint32_t scissor[4];   /* x, y, width, height in pixels: within the light's; nothing outside needs it */
 } gn_record;
 
 typedef enum gn_step_kind {

@@ -62,7 +62,7 @@ static int lay_out(gni_draft *d, arena *a)
             continue;
         if (s->camera.orthographic)
             ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
-        pieces = gni_most_pieces(mesh, ends, limit);
+        pieces = gni_most_pieces(mesh, ends, limit) + GNI_MOST_INTERVALS - 1;
         if (mesh->info.chunk_count > (most - records) / (pieces + GN_MOST_PATCHES) ||
             mesh->info.triangle_count > (most - indices) / GNI_MOST_INDICES)
             return 0;
@@ -86,6 +86,10 @@ static int lay_out(gni_draft *d, arena *a)
     d->rectangles = cut(a, s->object_count, sizeof *d->rectangles);
     d->balls = cut(a, s->object_count, sizeof *d->balls);
     d->is_in = cut(a, s->object_count, 1);
+    d->narrow = cut(a, s->object_count, sizeof *d->narrow);
+    for (int i = 0; i < 3; i++)
+        d->away[i] = cut(a, (triangles + GNI_CLUSTER - 1) / GNI_CLUSTER, sizeof *d->away[i]);
+    d->touched = cut(a, s->object_count, sizeof *d->touched);
     d->heights = cut(a, s->object_count, sizeof *d->heights);
     d->records = cut(a, (records + GN_MOST_PATCHES * chunks) * s->light_count, sizeof *d->records);
     d->flats = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->flats);

@@ -29,13 +29,13 @@ static void put_rectangle(gni_text *w, const uint32_t at[4])
 
 static void put_record(gni_text *w, const gn_record *r)
 {
-    static const char *const names[] = {"sides", "light cap", "dark cap"};
+    static const char *const names[] = {"sides", "light cap", "dark cap", "near cap"};
     static const char *const far_ends[] = {"infinite", "clamped", "ended"};
     const char *separator = "";
 
     gni_put(w, "\n  {\"light\": %lu, \"object\": %lu, \"chunk\": %lu, \"parts\": [", (unsigned long)r->light,
             (unsigned long)r->object, (unsigned long)r->chunk);
-    for (int part = 0; part < 3; part++)
+    for (int part = 0; part < 4; part++)
         if (r->parts >> part & 1) {
             gni_put(w, "%s\"%s\"", separator, names[part]);
             separator = ", ";
@@ -43,12 +43,14 @@ static void put_record(gni_text *w, const gn_record *r)
     gni_put(
         w,
         "], \"first_index\": %lu, \"indices\": {\"sides\": %lu, \"dark_cap\": %lu, \"light_cap\": %lu, \"turned_cap\": "
-        "%lu},",
+        "%lu, \"near_cap\": %lu},",
         (unsigned long)r->first_index, (unsigned long)r->side_count, (unsigned long)r->dark_cap_count,
-        (unsigned long)r->light_cap_count, (unsigned long)r->turned_cap_count);
+        (unsigned long)r->light_cap_count, (unsigned long)r->turned_cap_count, (unsigned long)r->near_cap_count);
     gni_put(w, " \"fan\": %s, \"case\": %d, \"mirrored\": %s, \"far_end\": \"%s\", \"end_plane\": ",
             r->fan ? "true" : "false", r->mcguire_case, r->mirrored ? "true" : "false", far_ends[r->far_end]);
     put_plane(w, r->end_plane);
+    gni_put(w, ", \"start_plane\": ");
+    put_plane(w, r->start_plane);
     gni_put(w, ", \"end_reach\": ");
     put_number(w, r->end_reach);
     gni_put(w, ", \"cached\": %s", r->is_cached ? "true" : "false");

@@ -37,6 +37,10 @@ unsigned gni_choose_parts(const gni_draft *d, const gni_volume *v, int *mcguire_
     gni_case c = *v->at_hand;
     unsigned parts = 0;
 
+    if (v->start_plane) {
+        *mcguire_case = c.number;
+        return GN_SIDES | GN_DARK_CAP;
+    }
     if (is_stencil && v->far_end == GN_FAR_CLAMPED && c.number == 1)
         c.number = c.seen & GNI_SEES_CASTER ? 3 : 2; /* what lies before the near plane would be drawn, and counted */
     if (c.seen & GNI_SEES_VOLUME)
@@ -57,9 +61,9 @@ void gni_know_casting(gni_draft *d, uint32_t object)
     d->casting_is_known = 1;
 }
 
-static void add_volume(gni_draft *d, const gni_volume *v, const gni_casting *casting)
+static void add_volumes(gni_draft *d, const gni_volume *v, uint32_t count, const gni_casting *casting)
 {
-    if (d->slot && gni_add_kept_records(d, v)) {
+    if (d->slot && gni_add_kept_records(d, v, count)) {
         d->casting_count += d->slot->triangles;
         gni_note_layers(d, v->object, d->slot->triangles, d->slot->silhouette);
         return;
@@ -70,16 +74,16 @@ static void add_volume(gni_draft *d, const gni_volume *v, const gni_casting *cas
     if (d->is_batched)
         gni_add_batched(d, v, casting);
     else
-        gni_note_layers(d, v->object, casting->count, gni_add_records(d, v, casting));
+        gni_note_layers(d, v->object, casting->count, gni_add_records(d, v, count, casting));
 }
 
 static void add_endless(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent,
                         gn_far far_end, int unpatched)
 {
     static const double infinity[4] = {0, 0, 0, 1};
-    const gni_volume v = {object, at_hand, extent, far_end, infinity, 0.0, unpatched};
+    const gni_volume v = {object, at_hand, extent, far_end, NULL, infinity, 0.0, unpatched};
 
-    add_volume(d, &v, &d->casting);
+    add_volumes(d, &v, 1, &d->casting);
 }
 
 /* Whether a plane of the camera cuts the object's box. Its surfaces are clipped there; drawn under depth clamp they
@@ -141,7 +145,7 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
     if (!gni_choose_ends(d->ends, d->region, mesh, model_view, d->bounds.light, d->casting.of, d->end_of))
         return clamp_or_refuse(d, object_index, at_hand, extent);
     for (uint32_t p = 0; p < d->ends->count; p++) {
-        const gni_volume v = {object_index, at_hand, extent, GN_FAR_ENDED, d->ends->planes[p], d->ends->reach, 0};
+        const gni_volume v = {object_index, at_hand, extent, GN_FAR_ENDED, NULL, d->ends->planes[p], d->ends->reach, 0};
         int any = 0;
 
         for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
@@ -151,9 +155,34 @@ static gn_result add_ended(gni_draft *d, uint32_t object_index, const gni_case *
         if (!any)
             continue;
         gni_find_bits(mesh, &d->group);
-        add_volume(d, &v, &d->group);
+        add_volumes(d, &v, 1, &d->group);
     }
     return GN_OK;
+}
+
+/* Counts that stop at the ends, batches and open meshes, whose caps are none over silhouettes, take a volume in one
+ * piece. */
+static void add_intervals(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent,
+                          int unpatched)
+{
+    gni_extent intervals[GNI_MOST_INTERVALS];
+    gni_volume volumes[GNI_MOST_INTERVALS];
+    const gn_mesh_info *info = &d->scene->objects[object].mesh->info;
+    uint32_t count = 1;
+
+    intervals[0] = *extent;
+    if (d->receivers_are_known && info->solid_part_count == info->part_count && d->lights[d->light].stencil.wrap &&
+        !d->is_batched && !(d->scene->without & GN_MEASURE_INTERVALS))
+        count = gni_cut_extent(intervals, extent, d, object);
+    for (uint32_t i = 0; i < count; i++) {
+        const gni_extent *e = &intervals[i];
+        const gni_volume v = {object,       at_hand, e,        GN_FAR_ENDED, e->is_detached ? e->start_plane : NULL,
+                              e->end_plane, 0.0,     unpatched};
+
+        volumes[i] = v;
+    }
+    if (count)
+        add_volumes(d, volumes, count, &d->casting);
 }
 
 gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent)
@@ -164,12 +193,9 @@ gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand,
         unpatched &= extent->on[p] != GNI_FILLS_PATCH;
     if (d->region)
         return add_ended(d, object, at_hand, extent);
-    if (extent->is_ended) {
-        const gni_volume v = {object, at_hand, extent, GN_FAR_ENDED, extent->end_plane, 0.0, unpatched};
-
-        add_volume(d, &v, &d->casting);
-    } else {
+    if (extent->is_ended)
+        add_intervals(d, object, at_hand, extent, unpatched);
+    else
         add_endless(d, object, at_hand, extent, GN_FAR_INFINITE, unpatched);
-    }
     return GN_OK;
 }

@@ -30,15 +30,19 @@ static int greatest_exponent(const double m[16])
     return exponent;
 }
 
-/* Homogeneous matrices mean the same at any scale, and a power of two keeps every bit: far vertices get the magnitude
- * of near ones. A light far away stays within float, and clipping a side between the two rounds alike in every unit of
- * length. */
-static void scale_like(double m[16], const double near_matrix[16])
+/* projection * extrusion * model_view, like near_matrix. Homogeneous matrices mean the same at any scale, and a power of
+ * two keeps every bit: far vertices get the magnitude of near ones. A light far away stays within float, and clipping a
+ * side between the two rounds alike in every unit of length. */
+static void multiply_like(double out[16], const double projection[16], const double extrusion[16],
+                          const double model_view[16], const double near_matrix[16])
 {
-    const int shift = greatest_exponent(near_matrix) - greatest_exponent(m);
+    int shift;
 
+    gn_mat4_multiply(out, projection, extrusion);
+    gn_mat4_multiply(out, out, model_view);
+    shift = greatest_exponent(near_matrix) - greatest_exponent(out);
     for (int i = 0; i < 16; i++)
-        m[i] = ldexp(m[i], shift);
+        out[i] = ldexp(out[i], shift);
 }
 
 /* A record of a volume before its indices. */
@@ -56,11 +60,17 @@ static void start_record(gn_record *r, const gni_draft *d, const gni_volume *v, 
         gni_extrusion(extrusion, d->bounds.light, v->end_plane);
         gni_plane_before(r->end_plane, v->end_plane, d->view);
     }
-    gn_mat4_multiply(far_matrix, d->projection, extrusion);
-    gn_mat4_multiply(far_matrix, far_matrix, model_view);
     gn_mat4_multiply(near_matrix, d->projection, model_view);
-    scale_like(far_matrix, near_matrix);
+    multiply_like(far_matrix, d->projection, extrusion, model_view, near_matrix);
     gn_mat4_to_float(r->far_matrix, far_matrix);
+    memcpy(r->near_matrix, d->objects[v->object].matrix, sizeof r->near_matrix);
+    if (v->start_plane) {
+        gni_extrusion(extrusion, d->bounds.light, v->start_plane);
+        multiply_like(far_matrix, d->projection, extrusion, model_view, near_matrix);
+        gn_mat4_to_float(r->near_matrix, far_matrix);
+        gni_plane_before(r->start_plane, v->start_plane, d->view);
+        r->detached = 1;
+    }
     r->light = d->light;
     r->object = v->object;
     r->chunk = chunk;
@@ -68,7 +78,6 @@ static void start_record(gn_record *r, const gni_draft *d, const gni_volume *v, 
     r->far_end = v->far_end;
     r->end_reach = v->end_reach;
     r->unpatched = v->unpatched;
-    r->first_index = r->first_side = r->first_dark_cap = d->plan->index_count;
     memcpy(r->scissor, scissor, sizeof r->scissor);
 }
 
@@ -79,23 +88,25 @@ static int is_better_fan(const gn_mesh *mesh, uint32_t edges, uint32_t triangles
     return mesh->info.chunk_count > 1 ? mesh->info.solid_part_count == mesh->info.part_count : edges < triangles;
 }
 
-static int is_fan(const gni_draft *d, const gni_volume *v, const gn_record *r, uint32_t triangles,
-                  const uint16_t *sides, uint32_t of_a_side)
+static int is_fan(const gni_draft *d, const gni_volume *v, uint32_t count, uint32_t chunk, uint32_t triangles,
+                  const uint16_t *sides, uint32_t side_count, uint32_t of_a_side)
 {
     const gn_object *object = &d->scene->objects[v->object];
     const gn_mesh *mesh = object->mesh;
     const double *light = d->bounds.light;
     double model_view[16];
 
+    if (v[count - 1].start_plane)
+        return 1;
     if (d->lights[d->light].method != GN_METHOD_STENCIL || v->end_reach > 0.0 || v->far_end == GN_FAR_CLAMPED ||
-        !is_better_fan(mesh, r->side_count / of_a_side, triangles))
+        !is_better_fan(mesh, side_count / of_a_side, triangles))
         return 0;
     if (v->far_end == GN_FAR_ENDED)
         return !d->region;
     if (light[3] == 0.0 || mesh->info.chunk_count > 1 || !gni_light_is_outside(&d->boxes[v->object], light))
         return 0;
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
-    return gni_runs_round_hub(mesh, r->chunk, sides, r->side_count, of_a_side, model_view, light);
+    return gni_runs_round_hub(mesh, chunk, sides, side_count, of_a_side, model_view, light);
 }
 
 static gn_plan_caster *caster_of(gni_draft *d, uint32_t object)
@@ -109,7 +120,7 @@ static void keep_record(gni_draft *d, gn_record *r)
     gn_plan_caster *caster = caster_of(d, r->object);
 
     r->parts = (r->side_count ? GN_SIDES : 0u) | (r->dark_cap_count ? GN_DARK_CAP : 0u) |
-               (r->light_cap_count + r->turned_cap_count ? GN_LIGHT_CAP : 0u);
+               (r->light_cap_count + r->turned_cap_count ? GN_LIGHT_CAP : 0u) | (r->near_cap_count ? GN_NEAR_CAP : 0u);
     if (!r->parts)
         return;
     d->plan->record_count++;
@@ -119,44 +130,77 @@ static void keep_record(gni_draft *d, gn_record *r)
     caster->is_ended |= r->far_end == GN_FAR_ENDED && !d->region;
 }
 
-uint32_t gni_add_records(gni_draft *d, const gni_volume *v, const gni_casting *casting)
+/* Where the parts of a chunk are, one behind the other, the turned cap wherever. */
+typedef struct run {
+    uint32_t first, first_turned, light_cap, sides, dark_cap, near_cap, turned_cap; /* indices */
+    int fan;
+} run;
+
+/* What a volume takes of them. */
+static void use_run(gn_record *r, const run *u, unsigned parts)
+{
+    r->light_cap_count = parts & GN_LIGHT_CAP ? u->light_cap : 0;
+    r->turned_cap_count = parts & GN_LIGHT_CAP ? u->turned_cap : 0;
+    r->side_count = parts & GN_SIDES || r->light_cap_count ? u->sides : 0;
+    r->dark_cap_count = parts & GN_DARK_CAP ? u->dark_cap : 0;
+    r->near_cap_count = r->detached ? u->near_cap : 0;
+    r->first_side = u->first + u->light_cap;
+    r->first_dark_cap = r->first_side + u->sides;
+    r->first_turned_cap = u->first_turned;
+    r->first_index = r->light_cap_count ? u->first : r->side_count ? r->first_side : r->first_dark_cap;
+    r->fan = u->fan && r->dark_cap_count;
+}
+
+uint32_t gni_add_records(gni_draft *d, const gni_volume *v, uint32_t count, const gni_casting *casting)
 {
     const gn_mesh *mesh = d->scene->objects[v->object].mesh;
     const int converges = v->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0;
     const uint32_t of_a_side = converges ? 3 : 6;
-    int mcguire_case;
-    const unsigned parts = gni_choose_parts(d, v, &mcguire_case);
-    uint32_t silhouette = parts & GN_SIDES ? 0 : GNI_NONE;
+    const int is_cut = v[count - 1].start_plane != NULL;
+    unsigned parts[GNI_MOST_INTERVALS], all = 0;
+    int mcguire_case, slivers = 0;
+    uint32_t silhouette;
     double eye[4], heights[2];
-    const int slivers = mcguire_case == 1 && parts & GN_LIGHT_CAP && d->lights[d->light].method == GN_METHOD_STENCIL &&
-                        gni_find_slivers(d, v, eye, heights);
 
+    for (uint32_t i = 0; i < count; i++)
+        all |= parts[i] = gni_choose_parts(d, &v[i], &mcguire_case);
+    if (mcguire_case == 1 && all & GN_LIGHT_CAP && d->lights[d->light].method == GN_METHOD_STENCIL)
+        slivers = gni_find_slivers(d, v, eye, heights);
+    silhouette = all & GN_SIDES ? 0 : GNI_NONE;
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
-        gn_record *r = &d->records[d->plan->record_count];
-        uint16_t *const out = d->indices + d->plan->index_count, *at = out;
+        uint16_t *const out = d->indices + d->plan->index_count, *at = out, *sides;
+        run u = {d->plan->index_count, 0, 0, 0, 0, 0, 0, 0};
 
-        start_record(r, d, v, v->extent->scissor, c);
-        r->mcguire_case = mcguire_case;
-        if (parts & GN_SIDES)
-            at += r->side_count = gni_put_sides(mesh, c, casting, converges, at);
-        r->first_dark_cap += r->side_count;
-        if (parts & GN_DARK_CAP && !converges) {
-            r->fan = is_fan(d, v, r, casting->count, out, of_a_side);
-            r->dark_cap_count = r->fan ? gni_put_fan(mesh, c, out, r->side_count, of_a_side, &d->walk, at)
-                                       : gni_put_dark_cap(mesh, c, casting, at);
-            at += r->dark_cap_count;
+        if (all & GN_LIGHT_CAP && slivers)
+            at += u.light_cap = gni_put_slivers(mesh, c, casting, eye, heights, at);
+        else if (all & GN_LIGHT_CAP)
+            at += u.light_cap = gni_put_light_cap(mesh, c, casting, 1, at);
+        sides = at;
+        if (all & GN_SIDES)
+            at += u.sides = gni_put_sides(mesh, c, casting, converges, at);
+        if (all & GN_DARK_CAP && !converges) {
+            u.fan = is_fan(d, v, count, c, casting->count, sides, u.sides, of_a_side);
+            u.dark_cap = u.fan ? gni_put_fan(mesh, c, sides, u.sides, of_a_side, &d->walk, at)
+                               : gni_put_dark_cap(mesh, c, casting, at);
+            if (is_cut)
+                gni_put_near_fan(at, u.near_cap = u.dark_cap, at + u.dark_cap);
+            at += u.dark_cap + u.near_cap;
         }
-        if (parts & GN_LIGHT_CAP && slivers) {
-            at += r->light_cap_count = gni_put_slivers(mesh, c, casting, eye, heights, at);
-            r->slivers = 1;
-        } else if (parts & GN_LIGHT_CAP) {
-            at += r->light_cap_count = gni_put_light_cap(mesh, c, casting, 1, at);
-            at += r->turned_cap_count = gni_put_light_cap(mesh, c, casting, -1, at);
+        u.first_turned = d->plan->index_count + (uint32_t)(at - out);
+        if (all & GN_LIGHT_CAP && !slivers)
+            at += u.turned_cap = gni_put_light_cap(mesh, c, casting, -1, at);
+        d->plan->index_count += (uint32_t)(at - out);
+        for (uint32_t i = 0; i < count; i++) {
+            gn_record *r = &d->records[d->plan->record_count];
+
+            start_record(r, d, &v[i], v[i].extent->scissor, c);
+            r->mcguire_case = mcguire_case;
+            r->slivers = slivers && parts[i] & GN_LIGHT_CAP;
+            use_run(r, &u, parts[i]);
+            keep_record(d, r);
         }
         if (silhouette != GNI_NONE)
-            silhouette += r->side_count / of_a_side;
-        d->plan->index_count += (uint32_t)(at - out);
-        keep_record(d, r);
+            silhouette += u.sides / of_a_side;
     }
     return silhouette;
 }
@@ -183,11 +227,27 @@ static const gni_stream *stream_for(gni_draft *d, const gni_volume *v, int *kind
     return gni_make_stream(d, v->object, *kind);
 }
 
-int gni_add_kept_records(gni_draft *d, const gni_volume *v)
+/* What a stream has of a chunk. *at: where that starts; on return where it ends. */
+static run find_run(const gni_stream *stream, int kind, uint32_t chunk, uint32_t *at)
+{
+    run u = {*at,
+             0,
+             stream->parts[chunk].light_cap,
+             stream->parts[chunk].sides,
+             stream->parts[chunk].dark_cap,
+             stream->parts[chunk].near_cap,
+             stream->parts[chunk].turned_cap,
+             kind == GNI_STREAM_FAN};
+
+    u.first_turned = *at + u.light_cap + u.sides + u.dark_cap + u.near_cap;
+    *at = u.first_turned + u.turned_cap;
+    return u;
+}
+
+int gni_add_kept_records(gni_draft *d, const gni_volume *v, uint32_t count)
 {
     const gn_mesh *mesh = d->scene->objects[v->object].mesh;
-    int mcguire_case, kind;
-    const unsigned parts = gni_choose_parts(d, v, &mcguire_case);
+    int kind;
     const gni_stream *stream = stream_for(d, v, &kind);
     uint32_t at;
 
@@ -195,23 +255,19 @@ int gni_add_kept_records(gni_draft *d, const gni_volume *v)
         return 0;
     at = stream->first;
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
-        const uint32_t dark = stream->parts[c].dark_cap, sides = stream->parts[c].sides;
-        const uint32_t light = stream->parts[c].light_cap, turned = stream->parts[c].turned_cap;
-        gn_record *r = &d->records[d->plan->record_count];
+        const run u = find_run(stream, kind, c, &at);
 
-        start_record(r, d, v, v->extent->scissor, c);
-        r->mcguire_case = mcguire_case;
-        r->is_cached = 1;
-        r->fan = kind == GNI_STREAM_FAN && parts & GN_DARK_CAP;
-        r->dark_cap_count = parts & GN_DARK_CAP ? dark : 0;
-        r->side_count = sides;
-        r->light_cap_count = parts & GN_LIGHT_CAP ? light : 0;
-        r->turned_cap_count = parts & GN_LIGHT_CAP ? turned : 0;
-        r->first_dark_cap = at;
-        r->first_side = at + dark;
-        r->first_index = parts & GN_DARK_CAP ? at : at + dark;
-        at += dark + sides + light + turned;
-        keep_record(d, r);
+        for (uint32_t i = 0; i < count; i++) {
+            gn_record *r = &d->records[d->plan->record_count];
+            int mcguire_case;
+            const unsigned parts = gni_choose_parts(d, &v[i], &mcguire_case);
+
+            start_record(r, d, &v[i], v[i].extent->scissor, c);
+            r->mcguire_case = mcguire_case;
+            r->is_cached = 1;
+            use_run(r, &u, parts | GN_SIDES);
+            keep_record(d, r);
+        }
     }
     return 1;
 }
@@ -251,16 +307,16 @@ static int share_record(const gni_draft *d, uint32_t first_record, uint32_t chun
 static void share_stream(const gni_stream *stream, int kind, uint32_t chunk, gn_record *cap, gni_outline *outline)
 {
     uint32_t at = stream->first;
+    run u = find_run(stream, kind, 0, &at);
 
-    for (uint32_t c = 0; c < chunk; c++)
-        at += stream->parts[c].dark_cap + stream->parts[c].sides + stream->parts[c].light_cap +
-              stream->parts[c].turned_cap;
-    cap->first_index = at;
-    cap->dark_cap_count = stream->parts[chunk].dark_cap;
+    for (uint32_t c = 1; c <= chunk; c++)
+        u = find_run(stream, kind, c, &at);
+    cap->first_index = u.first + u.light_cap + u.sides;
+    cap->dark_cap_count = u.dark_cap;
     cap->is_cached = 1;
-    cap->fan = kind == GNI_STREAM_FAN;
-    outline->first = at + stream->parts[chunk].dark_cap;
-    outline->count = stream->parts[chunk].sides;
+    cap->fan = u.fan;
+    outline->first = u.first + u.light_cap;
+    outline->count = u.sides;
     outline->of_a_side = 6;
 }
 
@@ -302,7 +358,7 @@ void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint
         silhouette += outline.count / outline.of_a_side;
         for (uint32_t p = 0; p < d->patch_count && cap.dark_cap_count; p++)
             if (extent->on[p] == GNI_FANS_PATCH) {
-                const gni_volume v = {object, NULL, extent, GN_FAR_ENDED, d->patches[p].plane, 0.0, 0};
+                const gni_volume v = {object, NULL, extent, GN_FAR_ENDED, NULL, d->patches[p].plane, 0.0, 0};
                 gn_record *r = &d->flats[d->flat_count];
 
                 d->outlines[d->flat_count++] = outline;

@@ -1,41 +1,29 @@
 /* streams.c - writes the streams of a cache's slot: all parts of a caster's volume, for any camera. */
 #include "gni_plan.h"
 
-#include <string.h>
-
-#define MOST_INDICES 30 /* of a triangle: three sides of two triangles, a dark cap of one for each, a light cap */
-
-static void reverse(uint16_t *indices, uint32_t count)
-{
-    for (uint32_t i = 0; i < count / 2; i++) {
-        const uint16_t first = indices[i];
-
-        indices[i] = indices[count - 1 - i];
-        indices[count - 1 - i] = first;
-    }
-}
-
-/* One chunk. Sides are written first, since a fan is made of them, and change places with the dark cap. */
+/* One chunk. */
 static uint32_t put_chunk(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int kind, const gni_walk *walk,
                           uint16_t *out, gni_stream *stream)
 {
-    const int converging = kind == GNI_STREAM_CONVERGING;
-    const uint32_t sides = gni_put_sides(mesh, chunk, c, converging, out);
-    uint32_t dark = 0, n = sides;
+    const uint32_t light = gni_put_light_cap(mesh, chunk, c, 1, out);
+    uint16_t *const sides = out + light;
+    const uint32_t side_count = gni_put_sides(mesh, chunk, c, kind == GNI_STREAM_CONVERGING, sides);
+    uint16_t *const dark = sides + side_count;
+    uint32_t dark_count = 0, near = 0, turned;
 
-    if (kind == GNI_STREAM_FAN)
-        dark = gni_put_fan(mesh, chunk, out, sides, 6, walk, out + sides);
-    else if (kind == GNI_STREAM_CAP)
-        dark = gni_put_dark_cap(mesh, chunk, c, out + sides);
-    reverse(out, sides);
-    reverse(out + sides, dark);
-    reverse(out, sides + dark);
-    n += dark;
-    stream->parts[chunk].dark_cap = dark;
-    stream->parts[chunk].sides = sides;
-    n += stream->parts[chunk].light_cap = gni_put_light_cap(mesh, chunk, c, 1, out + n);
-    n += stream->parts[chunk].turned_cap = gni_put_light_cap(mesh, chunk, c, -1, out + n);
-    return n;
+    if (kind == GNI_STREAM_FAN) {
+        near = dark_count = gni_put_fan(mesh, chunk, sides, side_count, 6, walk, dark);
+        gni_put_near_fan(dark, near, dark + near);
+    } else if (kind == GNI_STREAM_CAP) {
+        dark_count = gni_put_dark_cap(mesh, chunk, c, dark);
+    }
+    turned = gni_put_light_cap(mesh, chunk, c, -1, dark + dark_count + near);
+    stream->parts[chunk].light_cap = light;
+    stream->parts[chunk].sides = side_count;
+    stream->parts[chunk].dark_cap = dark_count;
+    stream->parts[chunk].near_cap = near;
+    stream->parts[chunk].turned_cap = turned;
+    return light + side_count + dark_count + near + turned;
 }
 
 const gni_stream *gni_make_stream(gni_draft *d, uint32_t object_index, int kind)
@@ -51,7 +39,7 @@ const gni_stream *gni_make_stream(gni_draft *d, uint32_t object_index, int kind)
         return stream;
     if (!d->casting_is_known)
         gni_find_casting(mesh, slot->light, &d->casting); /* which may not be the light's place now */
-    out = gni_take_room(d->scene->cache, stream, MOST_INDICES * mesh->info.triangle_count + GNI_SLACK);
+    out = gni_take_room(d->scene->cache, stream, GNI_MOST_INDICES * mesh->info.triangle_count + GNI_SLACK);
     if (!out)
         return NULL;
     slot->triangles = d->casting.count;
@@ -64,7 +52,7 @@ const gni_stream *gni_make_stream(gni_draft *d, uint32_t object_index, int kind)
         if (mesh->info.chunk_count == 1)
             slot->runs_round =
                 slot->light[3] != 0.0 &&
-                gni_runs_round_hub(mesh, 0, out + first + stream->parts[0].dark_cap, stream->parts[0].sides,
+                gni_runs_round_hub(mesh, 0, out + first + stream->parts[0].light_cap, stream->parts[0].sides,
                                    kind == GNI_STREAM_CONVERGING ? 3 : 6, identity, slot->light);
     }
     stream->count = count;

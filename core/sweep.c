@@ -137,6 +137,8 @@ static int add_record(const gni_draft *d, uint32_t record, const bins *in_view, 
     bins b = *in_view;
     int all_fit = 1;
 
+    if (r->detached && record > 0 && r[-1].object == r->object && r[-1].first_side == r->first_side && !r[-1].patch)
+        return 1; /* of the same volume: no point is in both */
     if (r->patch)
         outline = d->outlines[record + d->flat_count - d->plan->record_count];
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);

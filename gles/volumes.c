@@ -52,16 +52,15 @@ void gni_draw_surface(gn_gles *g, const gn_plan_object *object)
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int turned)
 {
     const gn_gl *gl = &g->gl;
-    const gn_plan_object *object = &plan->objects[r->object];
-    const uint32_t upright = r->side_count + r->dark_cap_count + r->light_cap_count;
-    const uint32_t first = r->first_index + (turned ? upright : 0);
+    const uint32_t upright = r->light_cap_count + r->side_count + r->dark_cap_count + r->near_cap_count;
+    const uint32_t first = turned ? r->first_turned_cap : r->first_index;
     const uint32_t count = turned ? r->turned_cap_count : upright;
 
     if (count == 0)
         return;
-    point_at(g, object->mesh, r->chunk);
+    point_at(g, plan->objects[r->object].mesh, r->chunk);
     bind_indices(g, r->is_cached ? g->cached : g->indices);
-    gl->glUniformMatrix4fv(g->in_use->near_matrix, 1, GL_FALSE, object->matrix);
+    gl->glUniformMatrix4fv(g->in_use->near_matrix, 1, GL_FALSE, r->near_matrix);
     gl->glUniformMatrix4fv(g->in_use->far_matrix, 1, GL_FALSE, r->far_matrix);
     gl->glDrawElements(GL_TRIANGLES, (GLsizei)count, GL_UNSIGNED_SHORT,
                        (const void *)((uintptr_t)first * sizeof(uint16_t)));

@@ -326,7 +326,7 @@ static void clip_position(const gn_plan *plan, const gn_record *r, uint16_t inde
     const gn_mesh_info *info = gn_mesh_get_info(plan->objects[r->object].mesh);
     const gn_chunk *chunk = &info->chunks[r->chunk];
     const float *p = info->positions + 3 * (size_t)info->chunk_vertices[chunk->first_vertex + index / 2];
-    const float *m = index % 2 ? r->far_matrix : plan->objects[r->object].matrix;
+    const float *m = index % 2 ? r->far_matrix : r->near_matrix;
     double h[4];
 
     for (int row = 0; row < 4; row++)
@@ -342,13 +342,15 @@ static double plan_angle(const gn_plan *plan, const double point[3])
 
     for (uint32_t n = 0; n < plan->record_count; n++) {
         const gn_record *r = &plan->records[n];
-        const uint32_t upright = r->side_count + r->dark_cap_count + r->light_cap_count;
+        const uint32_t upright = r->light_cap_count + r->side_count + r->dark_cap_count + r->near_cap_count;
 
         for (uint32_t i = 0; i < upright + r->turned_cap_count; i += 3) {
             double v[3][3];
 
             for (uint32_t k = 0; k < 3; k++) {
-                clip_position(plan, r, plan->indices[r->first_index + i + k], v[k]);
+                clip_position(plan, r,
+                              plan->indices[(i < upright ? r->first_index : r->first_turned_cap - upright) + i + k],
+                              v[k]);
                 for (int axis = 0; axis < 3; axis++)
                     v[k][axis] -= point[axis];
             }

@@ -156,12 +156,14 @@ static const float *position(const gn_plan *plan, const gn_record *r, uint16_t i
 /* How many of the record's casting triangles, which are its light cap, the ray hits. */
 static uint32_t layers_of(const gn_plan *plan, const gn_record *r, const ray *way)
 {
-    const uint16_t *at = plan->indices + r->first_index + r->side_count + r->dark_cap_count;
     uint32_t count = 0;
 
-    for (uint32_t i = 0; i < r->light_cap_count + r->turned_cap_count; i += 3)
-        count +=
-            (uint32_t)hits(way, position(plan, r, at[i]), position(plan, r, at[i + 1]), position(plan, r, at[i + 2]));
+    for (uint32_t i = 0; i < r->light_cap_count + r->turned_cap_count; i += 3) {
+        const uint16_t *at =
+            plan->indices + (i < r->light_cap_count ? r->first_index : r->first_turned_cap - r->light_cap_count) + i;
+
+        count += (uint32_t)hits(way, position(plan, r, at[0]), position(plan, r, at[1]), position(plan, r, at[2]));
+    }
     return count;
 }
 

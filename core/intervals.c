@@ -1,0 +1,124 @@
+/* intervals.c - volumes in pieces: only where along the rays there is something to shadow.
+ *
+ * Between the caster and what it may shadow, and between that and the next, nobody reads the count. So what an ended
+ * volume may touch is sorted along the normal of its end, and the volume is drawn in the intervals that hold any of it
+ * (clamping, Lloyd et al. 2004, there with finer and dearer bounds). An interval is a closed volume of its own: sides from
+ * its start plane to its end plane, and a cap on each. Inside it the count is that of the whole volume; so planes lie
+ * before and behind what is touched by more than depth can confuse, as the end does (extent.c), and all of the caster
+ * lies before the first start plane. A gap that is short on the image is not worth two caps and a draw. */
+#include "gni_plan.h"
+
+#include <math.h>
+#include <string.h>
+
+#define WORTH 12.0 /* pixels of the image: so long must a gap be */
+
+/* Levels along the normal, the higher one first. */
+typedef struct span {
+    double start, end;
+    uint32_t needed[4], count;
+} span;
+
+/* Where the caster's middle gets to at a level; 0 where that is behind the eye. */
+static int find_place(double out[2], const gni_draft *d, uint32_t object, const double normal[3], double level)
+{
+    const gn_camera *camera = &d->scene->camera;
+    const double *light = d->bounds.light, *ball = d->balls[object];
+    const double of_light = gni_dot(normal, light), of_ball = gni_dot(normal, ball);
+    double p[3];
+
+    for (int k = 0; k < 3; k++)
+        p[k] = light[3] == 0.0 ? ball[k] + (level - of_ball) / of_light * light[k]
+                               : light[k] + (of_light - level) / (of_light - of_ball) * (ball[k] - light[k]);
+    out[0] = p[0] / -p[2] * d->whole[2] / (camera->right - camera->left);
+    out[1] = p[1] / -p[2] * d->whole[3] / (camera->top - camera->bottom);
+    return -p[2] > camera->znear;
+}
+
+static int is_worth_it(const gni_draft *d, uint32_t object, const double normal[3], double from, double to)
+{
+    double a[2], b[2];
+
+    return from > to && find_place(a, d, object, normal, from) && find_place(b, d, object, normal, to) &&
+           hypot(a[0] - b[0], a[1] - b[1]) > WORTH;
+}
+
+/* What is touched of an object: of the caster itself all. */
+static const gni_hull *box_of(const gni_draft *d, uint32_t caster, uint32_t object)
+{
+    return object == caster ? &d->boxes[object] : &gni_narrow_receiver(d, object)->box;
+}
+
+static double lowest_touched(const double normal[3], const gni_draft *d, uint32_t caster, uint32_t object)
+{
+    return gni_lowest_of(normal, box_of(d, caster, object), d->balls[object]);
+}
+
+static void add_to_span(span *s, const uint32_t rectangle[4], double end)
+{
+    s->end = fmin(s->end, end);
+    s->count++;
+    gni_join_rectangles(s->needed, rectangle);
+}
+
+/* Those of the touched that are the highest, first. */
+static void sort_touched(const gni_extent *e, const gni_draft *d, uint32_t caster, const double down[3])
+{
+    for (uint32_t i = 1; i < e->touched; i++) {
+        const uint32_t object = d->touched[i];
+        const double key = lowest_touched(down, d, caster, object);
+        uint32_t at = i;
+
+        for (; at > 0 && lowest_touched(down, d, caster, d->touched[at - 1]) > key; at--)
+            d->touched[at] = d->touched[at - 1];
+        d->touched[at] = object;
+    }
+}
+
+uint32_t gni_cut_extent(gni_extent out[GNI_MOST_INTERVALS], const gni_extent *e, const gni_draft *d, uint32_t object)
+{
+    const double *normal = e->end_plane, down[3] = {-normal[0], -normal[1], -normal[2]};
+    const double own = gni_behind(e, d, gni_lowest_of(normal, &d->boxes[object], d->balls[object]));
+    span spans[GNI_MOST_INTERVALS] = {{INFINITY, own, {0}, 0}};
+    uint32_t count = 1, seen = 0;
+
+    sort_touched(e, d, object, down);
+    for (uint32_t i = 0; i < e->touched; i++) {
+        const uint32_t other = d->touched[i];
+        const double lowest = lowest_touched(normal, d, object, other);
+        const double highest = -lowest_touched(down, d, object, other);
+        const double start = -gni_behind(e, d, -highest), end = fmax(gni_behind(e, d, lowest), -e->end_plane[3]);
+
+        if (start <= -e->end_plane[3])
+            continue; /* out of reach */
+        if (count < GNI_MOST_INTERVALS && is_worth_it(d, object, normal, spans[count - 1].end, start)) {
+            memset(&spans[count], 0, sizeof spans[count]);
+            spans[count].start = start;
+            spans[count++].end = end;
+        }
+        add_to_span(&spans[count - 1],
+                    other == object ? d->rectangles[other] : gni_narrow_receiver(d, other)->rectangle, end);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        gni_extent *interval = &out[seen];
+        gni_hull volume;
+        double moves[2];
+
+        if (spans[i].count == 0)
+            continue;
+        *interval = *e;
+        interval->is_detached = i > 0;
+        memcpy(interval->start_plane, normal, 3 * sizeof *normal);
+        interval->start_plane[3] = -spans[i].start;
+        interval->end_plane[3] = -spans[i].end;
+        memcpy(interval->needed, spans[i].needed, sizeof interval->needed);
+        if (i > 0) {
+            gni_find_moves(moves, d, object, normal, spans[i].start);
+            interval->start_move = moves[0];
+        }
+        gni_find_moves(interval->moves, d, object, normal, spans[i].end);
+        gni_volume_hull(&volume, &d->boxes[object], d->bounds.light);
+        seen += gni_see_extent(interval, d, object, &volume) ? 1 : 0;
+    }
+    return seen;
+}
