@@ -120,10 +120,11 @@ static double extent(double range[2], const double axis[3], const gni_hull *h)
     range[1] = -INFINITY;
     for (int i = 0; i < h->point_count; i++) {
         const double *p = h->points[i], at = gni_dot(axis, p);
+        const double sum = fabs(axis[0] * p[0]) + fabs(axis[1] * p[1]) + fabs(axis[2] * p[2]);
 
-        range[0] = fmin(range[0], at);
-        range[1] = fmax(range[1], at);
-        most = fmax(most, fabs(axis[0] * p[0]) + fabs(axis[1] * p[1]) + fabs(axis[2] * p[2]));
+        range[0] = at < range[0] ? at : range[0];
+        range[1] = at > range[1] ? at : range[1];
+        most = sum > most ? sum : most;
     }
     return most;
 }

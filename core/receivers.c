@@ -75,10 +75,15 @@ static int ball_misses(const double caster[4], const double light[4], const doub
     return across * sqrt(1.0 - sine * sine) - along * sine > other[3] * (1.0 + GNI_MARGIN);
 }
 
-static int is_touched(const gni_draft *d, uint32_t caster, const gni_hull *volume, uint32_t other, const gni_hull *box)
+/* What a volume may touch of another object; NULL for nothing. */
+static const gni_narrow *find_touched(const gni_draft *d, uint32_t caster, const gni_hull *volume, uint32_t other)
 {
-    return !ball_misses(d->balls[caster], d->bounds.light, d->balls[other]) &&
-           !gni_volume_misses(volume, d->bounds.light, box);
+    const gni_narrow *n;
+
+    if (ball_misses(d->balls[caster], d->bounds.light, d->balls[other]))
+        return NULL;
+    n = gni_narrow_receiver(d, other);
+    return n->is == GNI_NOTHING || gni_volume_misses(volume, d->bounds.light, &n->box) ? NULL : n;
 }
 
 /* Whether the caster's volume need not cover the object: it is a patch, and the caster spares or fans it. */
@@ -104,11 +109,10 @@ int gni_find_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull
         return 0;
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (i != object && d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
-            !is_patched(e, d, i) && !(is_flat && gni_lies_before(&d->boxes[i], plane)) &&
-            is_touched(d, object, volume, i, &d->boxes[i])) {
-            const gni_narrow *n = gni_narrow_receiver(d, i);
+            !is_patched(e, d, i) && !(is_flat && gni_lies_before(&d->boxes[i], plane))) {
+            const gni_narrow *n = find_touched(d, object, volume, i);
 
-            if (n->is == GNI_WHOLE || (n->is == GNI_NARROWED && is_touched(d, object, volume, i, &n->box)))
+            if (n)
                 gni_touch(e, d, i, &n->box, n->rectangle);
         }
     return e->touched > 0 && gni_end_extent(e, d, object, volume);

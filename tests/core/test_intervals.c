@@ -177,7 +177,8 @@ static void what_is_seen_is_held(void **state)
                 edges[1][k] = v[2][k] - v[0][k];
             }
             for (int k = 0; k < 3; k++)
-                normal[k] = edges[0][(k + 1) % 3] * edges[1][(k + 2) % 3] - edges[0][(k + 2) % 3] * edges[1][(k + 1) % 3];
+                normal[k] =
+                    edges[0][(k + 1) % 3] * edges[1][(k + 2) % 3] - edges[0][(k + 2) % 3] * edges[1][(k + 1) % 3];
             length = sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
             for (int k = 0; k < 3; k++) {
                 p[k] += 1e-4 * normal[k] / length;
