@@ -44,7 +44,8 @@ static void cut(const cutter *c, gn_chunk *chunks, uint32_t *chunk_count, uint32
         const uint32_t rest = mesh->info.triangle_count - first,
                        end = first + (rest < GNI_CLUSTER ? rest : GNI_CLUSTER);
 
-        if (now.vertex_count + count_fresh(c, chunk, first, end) > GN_CHUNK_VERTICES) {
+        if (now.vertex_count + 3 * GNI_CLUSTER > GN_CHUNK_VERTICES &&
+            now.vertex_count + count_fresh(c, chunk, first, end) > GN_CHUNK_VERTICES) {
             if (chunks)
                 chunks[chunk] = now;
             chunk++;
@@ -96,7 +97,12 @@ gn_result gni_make_chunks(gn_mesh *mesh)
     int failed = !scratch;
 
     if (!failed) {
-        cut(&c, NULL, &info->chunk_count, NULL, &chunk_vertex_count);
+        if (info->vertex_count <= GN_CHUNK_VERTICES) {
+            info->chunk_count = 1;
+            chunk_vertex_count = info->vertex_count; /* each is some triangle's */
+        } else {
+            cut(&c, NULL, &info->chunk_count, NULL, &chunk_vertex_count);
+        }
         mesh->chunks = gni_alloc(context, info->chunk_count, sizeof *mesh->chunks);
         mesh->chunk_vertices = gni_alloc(context, chunk_vertex_count, sizeof *mesh->chunk_vertices);
         mesh->corners = gni_alloc(context, 3 * (size_t)info->triangle_count + 1, sizeof *mesh->corners);

@@ -10,21 +10,17 @@
 #include <math.h>
 #include <string.h>
 
-/* fmax() and fmin() are calls. */
+/* fmax() is a call. */
 static double greatest(double a, double b)
 {
     return a > b ? a : b;
-}
-
-static double least(double a, double b)
-{
-    return a < b ? a : b;
 }
 
 static void fill_lanes(const gn_mesh *mesh, uint32_t index)
 {
     gni_cluster *c = &mesh->clusters[index];
     const uint32_t first = index * GNI_CLUSTER;
+    double of_last = 0.0;
 
     memset(c, 0, sizeof *c);
     for (uint32_t i = 0; i < GNI_CLUSTER; i++)
@@ -33,14 +29,18 @@ static void fill_lanes(const gn_mesh *mesh, uint32_t index)
         const double *plane = mesh->facing_planes + 4 * (size_t)(first + i);
         const double most = greatest(fabs(plane[0]), greatest(fabs(plane[1]), fabs(plane[2])));
         const double scale = most > 0.0 ? 1.0 / most : 0.0; /* one more rounding, of double: nothing to float's */
+        const float last = (float)(plane[3] * scale);
         /* bit 8 l + j of a word is lane l of vector 7 - j */
-        const uint32_t slot = (7u - i % 8u) * 8u + i / 8u;
+        float *lane = &c->planes[0][(7u - i % 8u) * 8u + i / 8u];
 
-        for (int k = 0; k < 4; k++)
-            c->planes[k][slot] = (float)(plane[k] * scale);
-        if (!(fabs((double)c->planes[3][slot]) <= c->most))
-            c->most = fabs((double)c->planes[3][slot]);
+        lane[0] = (float)(plane[0] * scale);
+        lane[GNI_CLUSTER] = (float)(plane[1] * scale);
+        lane[2 * GNI_CLUSTER] = (float)(plane[2] * scale);
+        lane[3 * GNI_CLUSTER] = last;
+        if (!(fabs((double)last) <= of_last))
+            of_last = fabs((double)last);
     }
+    c->most = of_last;
 }
 
 static void unit(double v[3])
@@ -64,34 +64,43 @@ static void make_leaf(const gn_mesh *mesh, uint32_t index)
     const uint32_t first = index * GNI_CLUSTER, rest = mesh->info.triangle_count - first;
     const uint32_t count = rest < GNI_CLUSTER ? rest : GNI_CLUSTER;
     const uint32_t *corners = mesh->triangles + 3 * (size_t)first;
-    double normals[GNI_CLUSTER][3], cosine = 1.0, square = 0.0;
-    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    const double *planes = mesh->facing_planes + 4 * (size_t)first;
+    double cosine, lowest = 1.0, square = 0.0; /* lowest: square of a cosine, and its sign */
+    double a[3] = {0, 0, 0}, middle[3];
 
-    memset(n, 0, sizeof *n);
-    for (uint32_t i = 0; i < count; i++) {
-        memcpy(normals[i], mesh->facing_planes + 4 * (size_t)(first + i), sizeof normals[i]);
-        unit(normals[i]); /* of no area: 0, and the cone will be open */
-        for (int k = 0; k < 3; k++)
-            n->axis[k] += normals[i][k];
+    for (const double *p = planes; p < planes + 4 * (size_t)count; p += 4) {
+        a[0] += p[0];
+        a[1] += p[1];
+        a[2] += p[2];
     }
-    unit(n->axis);
-    for (uint32_t i = 0; i < count; i++)
-        cosine = least(cosine, gni_dot(normals[i], n->axis));
-    for (uint32_t i = 0; i < 3 * count; i++) {
-        const float *p = mesh->positions + 3 * (size_t)corners[i];
+    unit(a);
+    memcpy(n->axis, a, sizeof a);
+    for (const double *p = planes; p < planes + 4 * (size_t)count; p += 4) {
+        const double along = p[0] * a[0] + p[1] * a[1] + p[2] * a[2];
+        const double length = p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
 
-        for (int axis = 0; axis < 3; axis++) {
-            low[axis] = p[axis] < low[axis] ? p[axis] : low[axis];
-            high[axis] = p[axis] > high[axis] ? p[axis] : high[axis];
+        if (along * fabs(along) < lowest * length || length == 0.0) /* of no area: the cone is open */
+            lowest = length == 0.0 ? -1.0 : along * fabs(along) / length;
+    }
+    cosine = lowest > 0.0 ? sqrt(lowest) : 0.0;
+    for (int axis = 0; axis < 3; axis++) { /* about the middle: a third of the corners tell */
+        const float *p = mesh->positions + axis;
+        float low = INFINITY, high = -INFINITY;
+
+        for (uint32_t i = 0; i < count; i++) {
+            const float x = p[3 * (size_t)corners[3 * i]];
+
+            low = x < low ? x : low;
+            high = x > high ? x : high;
         }
+        n->centre[axis] = middle[axis] = 0.5 * (double)low + 0.5 * (double)high;
     }
-    for (int k = 0; k < 3; k++)
-        n->centre[k] = 0.5 * (double)low[k] + 0.5 * (double)high[k];
     for (uint32_t i = 0; i < 3 * count; i++) {
         const float *p = mesh->positions + 3 * (size_t)corners[i];
-        const double x = (double)p[0] - n->centre[0], y = (double)p[1] - n->centre[1], z = (double)p[2] - n->centre[2];
+        const double x = (double)p[0] - middle[0], y = (double)p[1] - middle[1], z = (double)p[2] - middle[2];
+        const double of_corner = x * x + y * y + z * z;
 
-        square = greatest(square, x * x + y * y + z * z);
+        square = of_corner > square ? of_corner : square;
     }
     n->radius = sqrt(square);
     open_cone(n, cosine);
@@ -147,7 +156,7 @@ static void make_tree(gn_mesh *mesh)
     }
 }
 
-/* Which corners are on a cluster's border; how many in all. */
+/* Which corners are on a cluster's border; how many in all. borders: [triangle_count * 3]. */
 static uint32_t find_borders(gn_mesh *mesh, uint8_t *borders)
 {
     const uint32_t triangles = mesh->info.triangle_count;
@@ -155,15 +164,13 @@ static uint32_t find_borders(gn_mesh *mesh, uint8_t *borders)
 
     for (uint32_t c = 0; c < mesh->cluster_count; c++) {
         const uint32_t first = c * GNI_CLUSTER, rest = triangles - first;
-        const uint32_t *across = mesh->across + 3 * (size_t)first;
+        const uint32_t own = rest < GNI_CLUSTER ? rest : GNI_CLUSTER, *across = mesh->across + 3 * (size_t)first;
 
         mesh->border_starts[c] = count;
-        for (uint32_t i = 0; i < 3 * (rest < GNI_CLUSTER ? rest : GNI_CLUSTER); i++)
-            if (across[i] - first >= GNI_CLUSTER || across[i] == triangles) {
-                if (borders)
-                    borders[count] = (uint8_t)i;
-                count++;
-            }
+        for (uint32_t i = 0; i < 3 * own; i++) {
+            borders[count] = (uint8_t)i;
+            count += across[i] - first >= own;
+        }
     }
     mesh->border_starts[mesh->cluster_count] = count;
     return count;
@@ -181,16 +188,23 @@ gn_result gni_make_clusters(gn_mesh *mesh)
 {
     gn_context *context = mesh->context;
     const uint32_t count = (mesh->info.triangle_count + GNI_CLUSTER - 1) / GNI_CLUSTER;
+    uint8_t *found;
 
     mesh->cluster_count = count;
     mesh->clusters = gni_alloc(context, count, sizeof *mesh->clusters);
     mesh->nodes = gni_alloc(context, (size_t)count + count / 7 + 16, sizeof *mesh->nodes);
     mesh->border_starts = gni_alloc(context, (size_t)count + 1, sizeof *mesh->border_starts);
-    if (mesh->clusters && mesh->nodes && mesh->border_starts)
-        mesh->borders = gni_alloc(context, find_borders(mesh, NULL), 1);
+    found = gni_alloc(context, 3 * (size_t)mesh->info.triangle_count + 1, 1);
+    if (mesh->clusters && mesh->nodes && mesh->border_starts && found) {
+        const uint32_t borders = find_borders(mesh, found);
+
+        mesh->borders = gni_alloc(context, borders, 1);
+        if (mesh->borders)
+            memcpy(mesh->borders, found, borders);
+    }
+    gni_free(context, found);
     if (!mesh->borders)
         return gn_fail(context, GN_E_MEMORY, "mesh: no memory for %lu clusters", (unsigned long)count);
-    find_borders(mesh, mesh->borders);
     gni_fill_clusters(mesh);
     return GN_OK;
 }

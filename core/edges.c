@@ -1,108 +1,110 @@
 /* edges.c - every edge once, with all its uses by triangles and their directions.
  *
- * A mesh may have any number of triangles at an edge. Uses are bucketed by their lower vertex and each bucket sorted by
- * the higher, so that the uses of one edge stand together: O(uses) but for the sorting of single vertices' buckets. */
+ * A mesh may have any number of triangles at an edge. Edges are found in a hash table by their two vertices and numbered
+ * in order of their first use; uses of one stand together, in order of their corners. */
 #include "gni.h"
 
 #include <string.h>
 
-/* A use in a bucket: the higher vertex, the corner, and whether it runs down, as one number, so that those of one edge
- * stand together in order of their corners. */
-typedef uint64_t use;
+/* While edges are found. counts stands one place on in edge_uses: of uses, then where the next use goes, which at last is
+ * where the next edge starts. */
+typedef struct finder {
+    uint32_t *table; /* [mask + 1] edges, or GNI_NONE */
+    uint32_t mask;
+    uint64_t *keys; /* [3 * triangle_count] of each edge its lower vertex and its higher one */
+    uint32_t *counts;
+    uint32_t edge_count;
+} finder;
 
-static inline use make_use(uint32_t high, uint32_t corner, int is_down)
+static inline uint64_t key_of(uint32_t from, uint32_t to)
 {
-    return (uint64_t)high << 32 | (uint64_t)corner << 1 | (uint64_t)is_down;
+    return from < to ? (uint64_t)from << 32 | to : (uint64_t)to << 32 | from;
 }
 
-static inline uint32_t high_of(use u)
+/* The edge between two vertices, new if it was not yet there. */
+static inline uint32_t find_edge(finder *f, uint32_t from, uint32_t to)
 {
-    return (uint32_t)(u >> 32);
-}
+    const uint64_t key = key_of(from, to);
+    uint32_t slot = (uint32_t)(key * 0x9e3779b97f4a7c15u >> 32) & f->mask, edge;
 
-static inline uint32_t code_of(use u)
-{
-    return (uint32_t)(u & 0xffffffffu) >> 1 | (u & 1 ? GNI_USE_DOWN : 0);
-}
-
-/* Shell's sort: buckets are mostly six or so long, and a fan's hub must not cost a square. */
-static void sort_uses(use *u, size_t count)
-{
-    size_t gap = 1;
-
-    while (gap < count / 3)
-        gap = 3 * gap + 1;
-    for (; gap > 0; gap /= 3)
-        for (size_t i = gap; i < count; i++) {
-            const use x = u[i];
-            size_t j = i;
-
-            for (; j >= gap && u[j - gap] > x; j -= gap)
-                u[j] = u[j - gap];
-            u[j] = x;
+    while ((edge = f->table[slot]) != GNI_NONE) {
+        if (f->keys[edge] == key) {
+            f->counts[edge]++;
+            return edge;
         }
+        slot = (slot + 1) & f->mask;
+    }
+    edge = f->edge_count++;
+    f->table[slot] = edge;
+    f->keys[edge] = key;
+    f->counts[edge] = 1;
+    return edge;
 }
 
-/* starts: [vertex_count + 1], all 0; on return where each bucket ends. sorted: [3 * triangle_count]. */
-static void bucket_uses(const gn_mesh *mesh, uint32_t *starts, use *sorted)
+static void find_edges(gn_mesh *mesh, const finder *empty)
 {
-    const gn_mesh_info *info = &mesh->info;
+    const uint32_t triangles = mesh->info.triangle_count, *c = mesh->triangles;
+    uint32_t *edges = mesh->edge_of;
+    finder f = *empty;
+
+    for (uint32_t t = 0; t < triangles; t++, c += 3, edges += 3) {
+        const uint32_t x = c[0], y = c[1], z = c[2];
+
+        if (x == y || y == z || z == x) {
+            edges[0] = edges[1] = edges[2] = GNI_NONE;
+            continue;
+        }
+        edges[0] = find_edge(&f, x, y);
+        edges[1] = find_edge(&f, y, z);
+        edges[2] = find_edge(&f, z, x);
+    }
+    mesh->info.edge_count = f.edge_count;
+}
+
+static void write_uses(gn_mesh *mesh)
+{
+    const uint32_t triangles = mesh->info.triangle_count, edge_count = mesh->info.edge_count;
+    const uint32_t *c = mesh->triangles, *edges = mesh->edge_of;
+    uint32_t *const next = mesh->edge_uses + 1, *const uses = mesh->uses;
     uint32_t total = 0;
 
-    for (uint32_t t = 0; t < info->triangle_count; t++) {
-        const uint32_t *c = mesh->triangles + 3 * (size_t)t, a = c[0], b = c[1], d = c[2];
+    mesh->edge_uses[0] = 0;
+    for (uint32_t e = 0; e < edge_count; e++) {
+        const uint32_t count = next[e];
 
-        if (a == b || b == d || d == a)
+        next[e] = total;
+        total += count;
+    }
+    for (uint32_t corner = 0; corner < 3 * triangles; corner += 3, c += 3, edges += 3) {
+        const uint32_t x = c[0], y = c[1], z = c[2];
+
+        if (edges[0] == GNI_NONE)
             continue;
-        starts[a < b ? a : b]++;
-        starts[b < d ? b : d]++;
-        starts[d < a ? d : a]++;
-    }
-    for (uint32_t v = 0; v <= info->vertex_count; v++) {
-        const uint32_t n = starts[v];
-
-        starts[v] = total;
-        total += n;
-    }
-    for (uint32_t t = 0; t < info->triangle_count; t++) {
-        const uint32_t *c = mesh->triangles + 3 * (size_t)t, a = c[0], b = c[1], d = c[2];
-
-        if (a == b || b == d || d == a)
-            continue;
-        sorted[starts[a < b ? a : b]++] = make_use(a < b ? b : a, 3 * t, a > b);
-        sorted[starts[b < d ? b : d]++] = make_use(b < d ? d : b, 3 * t + 1, b > d);
-        sorted[starts[d < a ? d : a]++] = make_use(d < a ? a : d, 3 * t + 2, d > a);
-    }
-    /* filling moved each start to its bucket's end, which is the next one's start */
-    for (uint32_t v = 0; v < info->vertex_count; v++) {
-        const uint32_t first = v ? starts[v - 1] : 0;
-
-        sort_uses(sorted + first, starts[v] - first);
+        uses[next[edges[0]]++] = corner | (x > y ? GNI_USE_DOWN : 0);
+        uses[next[edges[1]]++] = (corner + 1) | (y > z ? GNI_USE_DOWN : 0);
+        uses[next[edges[2]]++] = (corner + 2) | (z > x ? GNI_USE_DOWN : 0);
     }
 }
 
-/* Edge by edge from sorted buckets, which end at `ends`; what lies across too. Returns the number of edges. */
-static uint32_t write_edges(gn_mesh *mesh, const use *sorted, const uint32_t *ends)
+/* What lies across: of edges that two triangles alone share as neighbours do. */
+static void write_across(gn_mesh *mesh)
 {
-    uint32_t edges = 0, total = 0;
+    const uint32_t none = mesh->info.triangle_count, edge_count = mesh->info.edge_count;
+    const uint32_t *const starts = mesh->edge_uses, *const uses = mesh->uses;
+    uint32_t *const across = mesh->across, paired = 0;
 
-    for (uint32_t v = 0, u = 0, end; v < mesh->info.vertex_count; total = ends[v], v++)
-        for (; u < ends[v]; u = end, edges++) {
-            mesh->edge_uses[edges] = u;
-            for (end = u; end < ends[v] && high_of(sorted[end]) == high_of(sorted[u]); end++) {
-                mesh->uses[end] = code_of(sorted[end]);
-                mesh->edge_of[(sorted[end] & 0xffffffffu) >> 1] = edges;
-            }
-            if (end - u == 2 && (sorted[u] ^ sorted[u + 1]) & 1) {
-                const uint32_t a = (uint32_t)(sorted[u] & 0xffffffffu) >> 1,
-                               b = (uint32_t)(sorted[u + 1] & 0xffffffffu) >> 1;
+    for (size_t i = 0; i < 3 * (size_t)none; i++)
+        across[i] = none;
+    for (uint32_t e = 0; e < edge_count; e++) {
+        const uint32_t *u = uses + starts[e], a = u[0] & GNI_USE_CORNER, b = u[1] & GNI_USE_CORNER;
 
-                mesh->across[a] = b / 3;
-                mesh->across[b] = a / 3;
-            }
-        }
-    mesh->edge_uses[edges] = total;
-    return edges;
+        if (starts[e + 1] - starts[e] != 2 || !((u[0] ^ u[1]) & GNI_USE_DOWN))
+            continue;
+        across[a] = b / 3;
+        across[b] = a / 3;
+        paired++;
+    }
+    mesh->odd_edge_count = edge_count - paired;
 }
 
 gn_result gni_make_edges(gn_mesh *mesh)
@@ -110,25 +112,28 @@ gn_result gni_make_edges(gn_mesh *mesh)
     gn_context *context = mesh->context;
     const gn_mesh_info *info = &mesh->info;
     const size_t most = 3 * (size_t)info->triangle_count;
-    uint32_t *starts = gni_alloc(context, (size_t)info->vertex_count + 1, sizeof *starts);
-    use *sorted = gni_alloc(context, most, sizeof *sorted);
+    finder f = {NULL, 1, NULL, NULL, 0};
     int failed;
 
-    mesh->uses = gni_alloc(context, most, sizeof *mesh->uses);
+    while (f.mask < most) /* of a closed mesh half as many */
+        f.mask = 2 * f.mask + 1;
+    f.table = gni_alloc(context, (size_t)f.mask + 1, sizeof *f.table);
+    f.keys = gni_alloc(context, most, sizeof *f.keys);
+    mesh->uses = gni_alloc(context, most + 1, sizeof *mesh->uses); /* the last may be read with one more */
     mesh->edge_uses = gni_alloc(context, most + 1, sizeof *mesh->edge_uses);
     mesh->edge_of = gni_alloc(context, most, sizeof *mesh->edge_of);
     mesh->across = gni_alloc(context, most, sizeof *mesh->across);
-    failed = !starts || !sorted || !mesh->uses || !mesh->edge_uses || !mesh->edge_of || !mesh->across;
+    failed = !f.table || !f.keys || !mesh->uses || !mesh->edge_uses || !mesh->edge_of || !mesh->across;
     if (!failed) {
-        memset(starts, 0, ((size_t)info->vertex_count + 1) * sizeof *starts);
-        memset(mesh->edge_of, 0xff, most * sizeof *mesh->edge_of);
-        for (size_t i = 0; i < most; i++)
-            mesh->across[i] = info->triangle_count;
-        bucket_uses(mesh, starts, sorted);
-        mesh->info.edge_count = write_edges(mesh, sorted, starts);
+        memset(f.table, 0xff, ((size_t)f.mask + 1) * sizeof *f.table);
+        f.counts = mesh->edge_uses + 1;
+        mesh->uses[most] = 0;
+        find_edges(mesh, &f);
+        write_uses(mesh);
+        write_across(mesh);
     }
-    gni_free(context, starts);
-    gni_free(context, sorted);
+    gni_free(context, f.table);
+    gni_free(context, f.keys);
     if (failed)
         return gn_fail(context, GN_E_MEMORY, "mesh: no memory for the edges of %lu triangles",
                        (unsigned long)info->triangle_count);

@@ -65,13 +65,14 @@ struct gn_mesh {
     uint32_t *given;  /* [triangle_count][3], as described */
     uint32_t *welded; /* [given_count] the vertex that each one described has become; GNI_NONE of those unused */
     uint32_t given_count;
-    uint32_t *first_given; /* [vertex_count] scratch of update.c */
-    uint32_t *order;       /* [triangle_count] the number in the description of each */
-    uint32_t *triangles;   /* [triangle_count][3] */
-    double *planes;        /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
-    double *facing_planes; /* the same, or where edges are welded the sum of each one's group */
-    uint32_t *group_of;    /* NULL, or [triangle_count] the first triangle of each one's group */
-    uint32_t *edge_uses;   /* [edge_count + 1]: where an edge's uses start */
+    uint32_t *first_given;   /* [vertex_count] scratch of update.c */
+    uint32_t *order;         /* [triangle_count] the number in the description of each */
+    uint32_t *triangles;     /* [triangle_count][3] */
+    double *planes;          /* [triangle_count][4]: normal (not of unit length) and -normal . vertex */
+    double *facing_planes;   /* the same, or where edges are welded the sum of each one's group */
+    uint32_t *group_of;      /* NULL, or [triangle_count] the first triangle of each one's group */
+    uint32_t *edge_uses;     /* [edge_count + 1]: where an edge's uses start */
+    uint32_t odd_edge_count; /* that are not between two neighbours */
     uint32_t *uses;
     uint32_t
         *edge_of;     /* [triangle_count][3]: the edge from each corner to the next; GNI_NONE of degenerate triangles */

@@ -47,25 +47,26 @@ static double square_of(const double v[3])
 }
 
 /* The plane of a triangle: its cross product and minus that times its first vertex. 0 0 0 0 where it has no area.
- * longest: the square of the longest edge so far. */
-static void plane_of(const gn_mesh *mesh, uint32_t triangle, double plane[4], double *longest)
+ * Returns the square of its longest edge; square: of its cross product. */
+static inline double plane_of(const float *positions, const uint32_t corners[3], double plane[4], double *square)
 {
-    const uint32_t *c = mesh->triangles + 3 * (size_t)triangle;
-    double v[3][3], a[3], b[3], d[3], square;
+    const float *p = positions + 3 * (size_t)corners[0], *q = positions + 3 * (size_t)corners[1];
+    const float *r = positions + 3 * (size_t)corners[2];
+    const double v[3] = {(double)p[0], (double)p[1], (double)p[2]};
+    const double a[3] = {(double)q[0] - v[0], (double)q[1] - v[1], (double)q[2] - v[2]};
+    const double b[3] = {(double)r[0] - v[0], (double)r[1] - v[1], (double)r[2] - v[2]};
+    const double d[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]};
+    const double n[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    double longest = square_of(a), other = square_of(b);
 
-    for (int k = 0; k < 3; k++)
-        for (int axis = 0; axis < 3; axis++)
-            v[k][axis] = (double)mesh->positions[3 * (size_t)c[k] + (size_t)axis];
-    for (int axis = 0; axis < 3; axis++) {
-        a[axis] = v[1][axis] - v[0][axis];
-        b[axis] = v[2][axis] - v[0][axis];
-        d[axis] = v[2][axis] - v[1][axis];
-    }
-    gni_cross(plane, a, b);
-    plane[3] = -(plane[0] * v[0][0] + plane[1] * v[0][1] + plane[2] * v[0][2]);
-    square = square_of(a) > square_of(b) ? square_of(a) : square_of(b);
-    square = square > square_of(d) ? square : square_of(d);
-    *longest = *longest > square ? *longest : square;
+    plane[0] = n[0];
+    plane[1] = n[1];
+    plane[2] = n[2];
+    plane[3] = -(n[0] * v[0] + n[1] * v[1] + n[2] * v[2]);
+    *square = square_of(n);
+    longest = longest > other ? longest : other;
+    other = square_of(d);
+    return longest > other ? longest : other;
 }
 
 static void find_hub(gn_mesh *mesh)
@@ -88,23 +89,29 @@ static void find_hub(gn_mesh *mesh)
 void gni_find_planes(gn_mesh *mesh)
 {
     const double *first = NULL;
+    const uint32_t *corners = mesh->triangles;
+    const float *positions = mesh->positions;
     double largest = 0.0, longest = 0.0;
     int is_alike = 1;
 
     mesh->largest = 0;
     mesh->info.planar = mesh->info.triangle_count > 0;
     for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
-        double *plane = mesh->planes + 4 * (size_t)t;
+        double *plane = mesh->planes + 4 * (size_t)t, square;
+        const double edge = plane_of(positions, corners + 3 * (size_t)t, plane, &square);
 
-        plane_of(mesh, t, plane, &longest);
-        if (plane[0] == 0.0 && plane[1] == 0.0 && plane[2] == 0.0)
+        longest = longest > edge ? longest : edge;
+        square = square_of(plane);
+        if (square == 0.0) /* products of floats' differences do not vanish in doubles */
             continue;
         if (!first)
             first = plane;
-        if (square_of(plane) > largest) {
-            largest = square_of(plane);
+        if (square > largest) {
+            largest = square;
             mesh->largest = t;
         }
+        if (!mesh->info.planar)
+            continue;
         is_alike &= plane[0] * first[0] + plane[1] * first[1] + plane[2] * first[2] > 0.0;
         for (int k = 0; k < 3 && mesh->info.planar; k++) { /* exact: a mesh is planar, or it is not known to be */
             const float *p = mesh->positions + 3 * (size_t)mesh->triangles[3 * (size_t)t + (size_t)k];

@@ -9,7 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-#define SAMPLES 128
+#define SAMPLES 128 /* for a pivot, at most */
+#define LOOKS   32  /* for the longest side, and up to twice as many */
 
 /* A triangle while it is sorted: its centre, and its number. */
 typedef struct item {
@@ -17,40 +18,70 @@ typedef struct item {
     uint32_t triangle;
 } item;
 
+/* A value by which to part items, so that most of those beyond the middle are parted off on the side where more are:
+ * from a sorted sample, a little beside it (Floyd and Rivest 1975). */
+static float choose_pivot(const item *items, uint32_t count, uint32_t middle, int axis)
+{
+    const uint32_t wanted = count / 64 < SAMPLES ? count / 64 : SAMPLES;
+    float sample[SAMPLES + 1];
+    uint32_t size = 0;
+    int32_t at;
+
+    if (wanted < 4)
+        return items[(count - 1) / 2].at[axis]; /* never the last: both sides keep some */
+    for (uint32_t i = 0; i < wanted; i++) {
+        const float x = items[(uint64_t)i * (count - 1) / wanted].at[axis];
+        uint32_t to = size++;
+
+        for (; to > 0 && sample[to - 1] > x; to--)
+            sample[to] = sample[to - 1];
+        sample[to] = x;
+    }
+    at = (int32_t)((uint64_t)middle * size / count);
+    at += 2 * middle < count ? 1 + (int32_t)size / 16 : -1 - (int32_t)size / 16;
+    return sample[at < 0 ? 0 : at < (int32_t)size ? at : (int32_t)size - 1];
+}
+
 /* Hoare's selection: the smallest `middle` items come first. */
 static void split(item *items, uint32_t count, uint32_t middle, int axis)
 {
-    while (count > 1) {
-        const float pivot = items[(count - 1) / 2].at[axis]; /* never the last: both sides keep some */
-        uint32_t i = 0, j = count - 1;
+    int is_stuck = 0;
 
-        for (;; i++, j--) {
+    while (count > 1) {
+        const float pivot = is_stuck ? items[(count - 1) / 2].at[axis] : choose_pivot(items, count, middle, axis);
+        const uint32_t before = count;
+        item *low = items, *high = items + count - 1;
+        uint32_t parted;
+
+        for (;; low++, high--) {
             item swapped;
 
-            while (items[i].at[axis] < pivot)
-                i++;
-            while (items[j].at[axis] > pivot)
-                j--;
-            if (i >= j)
+            while (low->at[axis] < pivot)
+                low++;
+            while (high->at[axis] > pivot)
+                high--;
+            if (low >= high)
                 break;
-            swapped = items[i];
-            items[i] = items[j];
-            items[j] = swapped;
+            swapped = *low;
+            *low = *high;
+            *high = swapped;
         }
-        if (middle <= j) {
-            count = j + 1;
+        parted = (uint32_t)(high - items) + 1;
+        if (middle < parted) {
+            count = parted;
         } else {
-            items += j + 1;
-            middle -= j + 1;
-            count -= j + 1;
+            items += parted;
+            middle -= parted;
+            count -= parted;
         }
+        is_stuck = 2 * count > before; /* so is quadratic time avoided, as well as it ever was */
     }
 }
 
 /* Of the box around some of the items: enough to tell. */
 static int longest_axis(const item *items, uint32_t count)
 {
-    const uint32_t step = 1 + count / SAMPLES;
+    const uint32_t step = 1 + count / LOOKS / 2;
     float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
     int longest = 0;
 
@@ -93,12 +124,11 @@ gn_result gni_order_triangles(gn_mesh *mesh)
     failed = !items || !mesh->order || !mesh->triangles;
     for (uint32_t t = 0; t < count && !failed; t++) {
         const uint32_t *c = mesh->given + 3 * (size_t)t;
+        const float *p = mesh->positions + 3 * (size_t)c[0], *q = mesh->positions + 3 * (size_t)c[1];
+        const float *r = mesh->positions + 3 * (size_t)c[2];
 
-        for (size_t axis = 0; axis < 3; axis++) { /* a third of each first: floats do not overflow, nor is it a NaN */
-            const float *p = mesh->positions + axis;
-
-            items[t].at[axis] = p[3 * (size_t)c[0]] * third + p[3 * (size_t)c[1]] * third + p[3 * (size_t)c[2]] * third;
-        }
+        for (int axis = 0; axis < 3; axis++) /* a third of each first: floats do not overflow, nor is it a NaN */
+            items[t].at[axis] = p[axis] * third + q[axis] * third + r[axis] * third;
         items[t].triangle = t;
     }
     if (!failed)

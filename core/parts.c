@@ -19,15 +19,11 @@ static uint32_t triangle_of(uint32_t use)
     return (use & GNI_USE_CORNER) / 3;
 }
 
-/* The triangle that alone shares an edge with this one, wound alike or not; GNI_NONE where there is none. */
-static uint32_t neighbour(const gn_mesh *mesh, uint32_t corner)
+/* The triangle that alone shares an edge with this one, and is wound unlike; GNI_NONE where there is none. */
+static uint32_t odd_neighbour(const gn_mesh *mesh, uint32_t corner)
 {
-    const uint32_t across = mesh->across[corner], edge = mesh->edge_of[corner];
-    uint32_t first;
+    const uint32_t edge = mesh->edge_of[corner], first = mesh->edge_uses[edge];
 
-    if (across < mesh->info.triangle_count)
-        return across;
-    first = mesh->edge_uses[edge];
     if (mesh->edge_uses[edge + 1] - first != 2)
         return GNI_NONE;
     return triangle_of(mesh->uses[(mesh->uses[first] & GNI_USE_CORNER) == corner ? first + 1 : first]);
@@ -37,10 +33,11 @@ static uint32_t neighbour(const gn_mesh *mesh, uint32_t corner)
  * parts; they come in the order of their first triangles. */
 static uint32_t number_parts(const gn_mesh *mesh, uint32_t *part_of, uint32_t *stack)
 {
+    const uint32_t triangles = mesh->info.triangle_count, *const across = mesh->across;
     uint32_t count = 0;
 
     memset(part_of, 0xff, mesh->info.triangle_count * sizeof *part_of);
-    for (uint32_t first = 0; first < mesh->info.triangle_count; first++) {
+    for (uint32_t first = 0; first < triangles; first++) {
         uint32_t top = 1;
 
         if (part_of[first] != GNI_NONE || mesh->edge_of[3 * (size_t)first] == GNI_NONE)
@@ -50,10 +47,12 @@ static uint32_t number_parts(const gn_mesh *mesh, uint32_t *part_of, uint32_t *s
         while (top > 0) {
             const uint32_t t = stack[--top];
 
-            for (uint32_t corner = 3 * t; corner < 3 * t + 3; corner++) {
-                const uint32_t other = neighbour(mesh, corner);
+            for (uint32_t k = 0; k < 3; k++) {
+                uint32_t other = across[3 * t + k];
 
-                if (other == GNI_NONE || part_of[other] != GNI_NONE)
+                if (other == triangles && (other = odd_neighbour(mesh, 3 * t + k)) == GNI_NONE)
+                    continue;
+                if (part_of[other] != GNI_NONE)
                     continue;
                 part_of[other] = count;
                 stack[top++] = other;
@@ -89,7 +88,7 @@ static void sort_triangles(gn_mesh *mesh, const uint32_t *part_of)
  * sums: [part_count], all 0, and 0 again on return. */
 static void find_closed(gn_mesh *mesh, const uint32_t *part_of, int32_t *sums)
 {
-    for (uint32_t e = 0; e < mesh->info.edge_count; e++) {
+    for (uint32_t e = 0; e < mesh->info.edge_count && mesh->odd_edge_count > 0; e++) {
         const uint32_t first = mesh->edge_uses[e], end = mesh->edge_uses[e + 1];
 
         if (end - first == 2 && (mesh->uses[first] ^ mesh->uses[first + 1]) & GNI_USE_DOWN)
@@ -106,31 +105,41 @@ static void find_closed(gn_mesh *mesh, const uint32_t *part_of, int32_t *sums)
     }
 }
 
-static void measure(gn_mesh *mesh, gni_part *part)
+static void find_box(const gn_mesh *mesh, gni_part *part)
 {
-    const float *origin = NULL;
-    double volume = 0.0;
+    float low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
 
-    for (int axis = 0; axis < 3; axis++) {
-        part->box_min[axis] = INFINITY;
-        part->box_max[axis] = -INFINITY;
-    }
+    memcpy(part->box_min, mesh->info.box_min, sizeof part->box_min);
+    memcpy(part->box_max, mesh->info.box_max, sizeof part->box_max);
+    if (part->triangle_count == mesh->info.triangle_count)
+        return;
     for (uint32_t i = 0; i < part->triangle_count; i++) {
         const uint32_t *c = mesh->triangles + 3 * (size_t)mesh->part_triangles[part->first_triangle + i];
-        double v[3][3];
 
-        if (!origin)
-            origin = mesh->positions + 3 * (size_t)c[0];
         for (int k = 0; k < 3; k++)
             for (int axis = 0; axis < 3; axis++) {
                 const float p = mesh->positions[3 * (size_t)c[k] + (size_t)axis];
 
-                part->box_min[axis] = p < part->box_min[axis] ? p : part->box_min[axis];
-                part->box_max[axis] = p > part->box_max[axis] ? p : part->box_max[axis];
-                v[k][axis] = (double)p - (double)origin[axis];
+                low[axis] = p < low[axis] ? p : low[axis];
+                high[axis] = p > high[axis] ? p : high[axis];
             }
-        volume += v[0][0] * (v[1][1] * v[2][2] - v[1][2] * v[2][1]) +
-                  v[0][1] * (v[1][2] * v[2][0] - v[1][0] * v[2][2]) + v[0][2] * (v[1][0] * v[2][1] - v[1][1] * v[2][0]);
+    }
+    memcpy(part->box_min, low, sizeof low);
+    memcpy(part->box_max, high, sizeof high);
+}
+
+/* The signed volume: of the pyramids from a point near by over the triangles, each its plane's value there. */
+static void measure(const gn_mesh *mesh, gni_part *part)
+{
+    double origin[3], volume = 0.0;
+
+    find_box(mesh, part);
+    for (int axis = 0; axis < 3; axis++)
+        origin[axis] = 0.5 * (double)part->box_min[axis] + 0.5 * (double)part->box_max[axis];
+    for (uint32_t i = 0; i < part->triangle_count; i++) {
+        const double *plane = mesh->planes + 4 * (size_t)mesh->part_triangles[part->first_triangle + i];
+
+        volume -= plane[0] * origin[0] + plane[1] * origin[1] + plane[2] * origin[2] + plane[3];
     }
     if (part->outward && volume < 0.0)
         part->outward = -1;

@@ -19,6 +19,9 @@ static const float *vertex_of(const gn_mesh_desc *desc, uint32_t index)
 
 static gn_result check(gn_context *context, const gn_mesh_desc *desc)
 {
+    const uint32_t *const indices = desc->indices;
+    const size_t corners = 3 * desc->triangle_count;
+
     for (size_t i = 0; i < desc->vertex_count; i++) {
         const float *p = vertex_of(desc, (uint32_t)i);
 
@@ -27,10 +30,10 @@ static gn_result check(gn_context *context, const gn_mesh_desc *desc)
                 return gn_fail(context, GN_E_MESH, "mesh: vertex %lu is not finite: its %c is %g", (unsigned long)i,
                                "xyz"[axis], (double)p[axis]);
     }
-    for (size_t i = 0; i < 3 * desc->triangle_count; i++)
-        if (desc->indices[i] >= desc->vertex_count)
+    for (size_t i = 0; i < corners; i++)
+        if (indices[i] >= desc->vertex_count)
             return gn_fail(context, GN_E_MESH, "mesh: triangle %lu names vertex %lu of %lu", (unsigned long)(i / 3),
-                           (unsigned long)desc->indices[i], (unsigned long)desc->vertex_count);
+                           (unsigned long)indices[i], (unsigned long)desc->vertex_count);
     return GN_OK;
 }
 
@@ -47,22 +50,33 @@ static uint32_t hash_of(const float p[3])
 /* Numbers positions in order of their first use; writes raw positions and triangles. Returns how many there are. */
 static uint32_t number_vertices(gn_mesh *mesh, const gn_mesh_desc *desc, uint32_t *table, uint32_t mask)
 {
+    const uint32_t *const indices = desc->indices;
+    uint32_t *const welded = mesh->welded, *const given = mesh->given;
+    const size_t corners = 3 * desc->triangle_count;
     uint32_t count = 0;
 
     memset(table, 0xff, ((size_t)mask + 1) * sizeof *table);
-    for (size_t i = 0; i < 3 * desc->triangle_count; i++) {
-        const float *given = vertex_of(desc, desc->indices[i]);
-        const float p[3] = {given[0] + 0.0f, given[1] + 0.0f, given[2] + 0.0f}; /* -0 + 0 is 0 */
-        uint32_t slot = (hash_of(p) >> 7) & mask;
+    for (size_t i = 0; i < corners; i++) {
+        const uint32_t index = indices[i];
+        const float *at;
+        float p[3];
+        uint32_t slot;
 
+        if (welded[index] != GNI_NONE) {
+            given[i] = welded[index];
+            continue;
+        }
+        at = vertex_of(desc, index);
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] = at[axis] + 0.0f; /* -0 + 0 is 0 */
+        slot = (hash_of(p) >> 7) & mask;
         while (table[slot] != GNI_NONE && memcmp(mesh->positions + 3 * (size_t)table[slot], p, sizeof p) != 0)
             slot = (slot + 1) & mask;
         if (table[slot] == GNI_NONE) {
             memcpy(mesh->positions + 3 * (size_t)count, p, sizeof p);
             table[slot] = count++;
         }
-        mesh->given[i] = table[slot];
-        mesh->welded[desc->indices[i]] = table[slot];
+        given[i] = welded[index] = table[slot];
     }
     return count;
 }
@@ -82,7 +96,7 @@ void gni_subtract_centre(gn_mesh *mesh)
         }
         if (info->vertex_count && ((low > 0.0f && high <= 2.0f * low) || (high < 0.0f && low >= 2.0f * high)))
             centre = 0.5f * low + 0.5f * high;
-        for (uint32_t v = 0; v < info->vertex_count; v++)
+        for (uint32_t v = 0; v < info->vertex_count && centre != 0.0f; v++)
             mesh->positions[3 * (size_t)v + (size_t)axis] -= centre;
         info->centre[axis] = centre;
         info->box_min[axis] = info->vertex_count ? low - centre : 0.0f;
