@@ -149,10 +149,11 @@ void gni_cast(const gn_mesh *mesh, const double light[4], gni_casting *c)
         return;
     }
     c->is_plain = 1;
+    c->turn = inward ? -1 : 1;
     c->count = 0;
     c->of[mesh->info.triangle_count] = GNI_UNLIKE;
     for (uint32_t cluster = 0; cluster < mesh->cluster_count; cluster++) {
-        put_bytes(c->of + (size_t)cluster * GNI_CLUSTER, c->bits[cluster], size_of(mesh, cluster), inward ? -1 : 1);
+        put_bytes(c->of + (size_t)cluster * GNI_CLUSTER, c->bits[cluster], size_of(mesh, cluster), c->turn);
         c->count += gni_count_bits(c->bits[cluster]);
     }
 }

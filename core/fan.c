@@ -16,29 +16,29 @@
 
 #include <math.h>
 
-/* A triangle of far vertices, unless it has no area. */
-static uint16_t *put(uint16_t *out, uint16_t a, uint16_t b, uint16_t c)
+static inline uint16_t *put(uint16_t *out, uint16_t a, uint16_t b, uint16_t c)
 {
     out[0] = a;
     out[1] = b;
     out[2] = c;
-    return out + (a != b && b != c && c != a ? 3 : 0);
+    return out + 3;
 }
 
 /* Cuts every other vertex off a loop, until two are left. */
 static uint16_t *span_loop(uint16_t *loop, uint32_t count, uint16_t *out)
 {
     while (count > 2) {
-        uint32_t i = 0, kept = 0;
+        const uint16_t *from = loop, *const last = loop + count - 1;
+        uint16_t *kept = loop;
 
-        for (; i + 2 < count; i += 2) {
-            out = put(out, loop[i], loop[i + 1], loop[i + 2]);
-            loop[kept++] = loop[i];
+        for (; from + 1 < last; from += 2) {
+            out = put(out, from[0], from[1], from[2]);
+            *kept++ = from[0];
         }
-        if (i + 1 < count)
-            out = put(out, loop[i], loop[i + 1], loop[0]);
-        loop[kept++] = loop[i];
-        count = kept;
+        if (from < last)
+            out = put(out, from[0], from[1], loop[0]);
+        *kept++ = from[0];
+        count = (uint32_t)(kept - loop);
     }
     return out;
 }
@@ -46,38 +46,32 @@ static uint16_t *span_loop(uint16_t *loop, uint32_t count, uint16_t *out)
 uint32_t gni_put_fan(const gn_mesh *mesh, uint32_t chunk, const uint16_t *sides, uint32_t count, uint32_t of_a_side,
                      const gni_walk *w, uint16_t *out)
 {
-    const uint16_t hub = (uint16_t)(2u * mesh->chunks[chunk].vertex_count + 1u);
-    const uint32_t edges = count / of_a_side;
-    uint16_t *at = out;
+    const uint16_t hub = (uint16_t)(2u * mesh->chunks[chunk].vertex_count + 1u), *const end = sides + count;
+    uint32_t *const first = w->first, *const next = w->next, left = 0;
+    uint16_t *const loop = w->loop, *const start = out;
 
-    for (uint32_t e = 0; e < edges; e++) {
-        uint32_t *first = &w->first[sides[(size_t)e * of_a_side] / 2u];
-
-        w->next[e] = *first;
-        *first = e;
+    for (const uint16_t *side = sides; side < end; side += of_a_side, left++) {
+        next[left] = first[side[0] / 2u];
+        first[side[0] / 2u] = left;
     }
-    for (uint32_t start = 0; start < edges; start++) {
-        const uint16_t from = sides[(size_t)start * of_a_side];
-
-        while (w->first[from / 2u] != GNI_NONE) {
-            uint32_t length = 0;
-            uint16_t vertex = from;
+    for (const uint16_t *side = sides; left > 0; side += of_a_side)
+        while (first[side[0] / 2u] != GNI_NONE) {
+            uint32_t vertex = side[0], edge = first[vertex / 2u], length = 0;
 
             do {
-                const uint32_t e = w->first[vertex / 2u];
-
-                w->loop[length++] = vertex + 1u;
-                w->first[vertex / 2u] = w->next[e];
-                vertex = sides[(size_t)e * of_a_side + 1];
-            } while (vertex != from && w->first[vertex / 2u] != GNI_NONE);
-            if (vertex != from) {
-                w->loop[length++] = vertex + 1u;
-                at = put(at, hub, from + 1u, vertex + 1u);
+                loop[length++] = (uint16_t)(vertex + 1u);
+                first[vertex / 2u] = next[edge];
+                vertex = sides[(size_t)edge * of_a_side + 1];
+                edge = first[vertex / 2u];
+            } while (vertex != side[0] && edge != GNI_NONE);
+            left -= length;
+            if (vertex != side[0]) {
+                loop[length++] = (uint16_t)(vertex + 1u);
+                out = put(out, hub, (uint16_t)(side[0] + 1u), (uint16_t)(vertex + 1u));
             }
-            at = span_loop(w->loop, length, at);
+            out = span_loop(loop, length, out);
         }
-    }
-    return (uint32_t)(at - out);
+    return (uint32_t)(out - start);
 }
 
 void gni_put_near_fan(const uint16_t *fan, uint32_t count, uint16_t *out)

@@ -37,6 +37,7 @@ typedef struct gni_casting {
     uint64_t *spare;    /* [cluster_count] of backs, while facing is looked at */
     int is_plain;       /* all that cast are turned alike, and of closed parts: clusters that cast whole have no
                               silhouette inside */
+    int8_t turn;        /* if so: 1 or -1, of those that cast */
     uint32_t count;     /* of those that cast */
     uint32_t looked_at; /* triangles whose facing was computed: the others were known by their clusters */
 } gni_casting;

@@ -81,15 +81,16 @@ static uint16_t *cross_rarely(const side_maker *m, uint32_t corner, uint32_t nex
     return out;
 }
 
-/* The edge of a casting triangle from one corner to the next, where what lies across is cast unlike. */
-static inline uint16_t *cross_over(const side_maker *m, int8_t own, int8_t across, uint32_t corner, uint32_t next,
-                                   uint16_t *out)
+/* The edge of a casting triangle from its k-th corner on, where what lies across is cast unlike. */
+static inline uint16_t *cross_over(const side_maker *m, uint32_t triangle, uint32_t k, int8_t across, uint16_t *out)
 {
-    const uint16_t *corners = m->mesh->corners;
+    const uint16_t *corners = m->mesh->corners + 3 * (size_t)triangle;
+    const uint32_t next = k < 2 ? k + 1 : 0;
+    const int is_up = m->casting[triangle] > 0;
 
     if (across != 0)
-        return cross_rarely(m, corner, next, out);
-    return put_side(m->converging, corners[own > 0 ? corner : next], corners[own > 0 ? next : corner], out);
+        return cross_rarely(m, 3 * triangle + k, 3 * triangle + next, out);
+    return put_side(m->converging, corners[is_up ? k : next], corners[is_up ? next : k], out);
 }
 
 static uint32_t end_of(const gn_chunk *chunk)
@@ -106,14 +107,15 @@ static int is_whole(const gni_casting *c, uint32_t cluster)
 static uint16_t *walk_border(const side_maker *m, uint32_t cluster, uint16_t *out)
 {
     const gn_mesh *mesh = m->mesh;
+    const uint8_t *const end = mesh->borders + mesh->border_starts[cluster + 1];
+    const uint32_t first = cluster * GNI_CLUSTER, *across = mesh->across + 3 * (size_t)first;
+    const int8_t own = m->casting[first];
 
-    for (uint32_t b = mesh->border_starts[cluster]; b < mesh->border_starts[cluster + 1]; b++) {
-        const uint32_t corner = 3u * GNI_CLUSTER * cluster + mesh->borders[b];
+    for (const uint8_t *corner = mesh->borders + mesh->border_starts[cluster]; corner < end; corner++) {
+        const int8_t other = m->casting[across[*corner]];
 
-        const int8_t own = m->casting[corner / 3], across = m->casting[mesh->across[corner]];
-
-        if (across != own)
-            out = cross_over(m, own, across, corner, gni_next_corner(corner), out);
+        if (other != own)
+            out = cross_over(m, first + *corner / 3u, *corner % 3u, other, out);
     }
     return out;
 }
@@ -127,15 +129,15 @@ static uint16_t *walk_bits(const side_maker *m, uint32_t cluster, uint64_t bits,
 
     for (; bits; bits &= bits - 1) {
         const size_t i = gni_lowest_bit(bits);
-        const uint32_t *a = across + 3 * i, corner = 3 * (first + (uint32_t)i);
+        const uint32_t *a = across + 3 * i;
         const int8_t own = casting[first + i];
 
         if (casting[a[0]] != own)
-            out = cross_over(m, own, casting[a[0]], corner, corner + 1, out);
+            out = cross_over(m, first + (uint32_t)i, 0, casting[a[0]], out);
         if (casting[a[1]] != own)
-            out = cross_over(m, own, casting[a[1]], corner + 1, corner + 2, out);
+            out = cross_over(m, first + (uint32_t)i, 1, casting[a[1]], out);
         if (casting[a[2]] != own)
-            out = cross_over(m, own, casting[a[2]], corner + 2, corner, out);
+            out = cross_over(m, first + (uint32_t)i, 2, casting[a[2]], out);
     }
     return out;
 }
@@ -192,12 +194,12 @@ uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk_index, const gni_
     const gn_chunk *chunk = &mesh->chunks[chunk_index];
     uint16_t *at = out;
 
+    if (c->is_plain && c->turn != turn)
+        return 0;
     for (uint32_t cluster = chunk->first_triangle / GNI_CLUSTER; cluster < end_of(chunk); cluster++) {
         const uint32_t first = cluster * GNI_CLUSTER;
         const uint16_t *corners = mesh->corners + 3 * (size_t)first;
 
-        if (c->is_plain && (c->bits[cluster] == 0 || c->of[first + gni_lowest_bit(c->bits[cluster])] != turn))
-            continue;
         if (is_whole(c, cluster)) {
             memcpy(at, corners, 3 * GNI_CLUSTER * sizeof *at);
             at += 3 * GNI_CLUSTER;
