@@ -18,8 +18,8 @@
 
 #define STEPS     8.0    /* of depth behind the last receiver; four are needed */
 #define MOST      1024.0 /* times its distance from the light may a vertex be moved: more loses its direction in floats */
-#define WORTH     (1.0 / 32.0) /* of the target's pixels must a scissor cut off: changing it is not free everywhere */
-#define LEAST_SUN 0.02         /* sine of the angle at which a directional light's rays may meet the end */
+#define WORTH     (1.0 / 128.0) /* of the target's pixels must a scissor cut off: changing it is not free everywhere */
+#define LEAST_SUN 0.02          /* sine of the angle at which a directional light's rays may meet the end */
 
 void gni_join_rectangles(uint32_t a[4], const uint32_t b[4])
 {

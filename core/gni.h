@@ -326,9 +326,10 @@ int gni_light_is_outside(const gni_hull *box, const double light[4]);
 
 /* fan.c: scratch of a walk along a silhouette. */
 typedef struct gni_walk {
-    uint32_t *first; /* [GN_CHUNK_VERTICES] of each vertex, an edge that starts there; GNI_NONE between calls */
-    uint32_t *next;  /* [edges] another from the same vertex */
-    uint16_t *loop;  /* [edges + 1] */
+    uint32_t vertex_count; /* of the largest chunk, at least */
+    uint32_t *first;       /* [vertex_count] of each vertex, an edge that starts there; GNI_NONE between calls */
+    uint32_t *next;        /* [edges] another from the same vertex */
+    uint16_t *loop;        /* [edges + 1] */
 } gni_walk;
 
 /* sides: as written, of_a_side indices each. No more triangles than sides. */

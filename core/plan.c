@@ -50,7 +50,7 @@ static int lay_out(gni_draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
     const uint32_t limit = batch_limit(s);
-    size_t records = 0, chunks = 0, indices = 0, triangles = 0, all = 0, batches = 1;
+    size_t records = 0, chunks = 0, indices = 0, triangles = 0, all = 0, batches = 1, vertices = 0;
     const size_t most =
         UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
 
@@ -72,6 +72,7 @@ static int lay_out(gni_draft *d, arena *a)
         indices += (size_t)mesh->info.triangle_count * GNI_MOST_INDICES;
         all += mesh->info.triangle_count;
         triangles = triangles < mesh->info.triangle_count ? mesh->info.triangle_count : triangles;
+        vertices = vertices < mesh->info.vertex_count ? mesh->info.vertex_count : vertices;
     }
     d->plan = cut(a, 1, sizeof *d->plan);
     /* a light zeroes twice, marks once, darkens each patch and draws twice; each of its batches holds a piece of a
@@ -94,7 +95,8 @@ static int lay_out(gni_draft *d, arena *a)
     d->records = cut(a, (records + GN_MOST_PATCHES * chunks) * s->light_count, sizeof *d->records);
     d->flats = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->flats);
     d->outlines = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->outlines);
-    d->walk.first = cut(a, GN_CHUNK_VERTICES, sizeof *d->walk.first);
+    d->walk.vertex_count = (uint32_t)(vertices < GN_CHUNK_VERTICES ? vertices : GN_CHUNK_VERTICES);
+    d->walk.first = cut(a, d->walk.vertex_count, sizeof *d->walk.first);
     d->walk.next = cut(a, 3 * triangles, sizeof *d->walk.next);
     d->walk.loop = cut(a, 3 * triangles + 1, sizeof *d->walk.loop);
     cut_casting(a, &d->casting, triangles);
@@ -221,7 +223,7 @@ static void start_plan(gni_draft *d)
 
     memset(plan, 0, sizeof *plan);
     memset(d->lights, 0, s->light_count * sizeof *d->lights);
-    memset(d->walk.first, 0xff, GN_CHUNK_VERTICES * sizeof *d->walk.first); /* GNI_NONE */
+    memset(d->walk.first, 0xff, d->walk.vertex_count * sizeof *d->walk.first); /* GNI_NONE */
     plan->target = s->target;
     plan->blend_once = s->blend_once;
     plan->steps = d->steps;

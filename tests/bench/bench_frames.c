@@ -6,8 +6,9 @@
  * The scene of pile.h, everything moving, untextured Lambert. Each frame is drawn three ways in turn: in one pass with
  * all lights and no shadows; in the plan's passes without volumes; and with them. Times are the process's, all threads
  * (a driver that rasterises on the processor), medians: a remark, of use as ratios within a row. shadow_part is what
- * the volumes add, in one-pass frames. Fragments of volumes are counted, per pixel of a mask; the columns that follow
- * are the same without each measure of gn_scene.without, and without all. --quick: three rows. */
+ * the volumes add, in one-pass frames; wall_part the same by the wall's clock. Fragments of volumes are counted, per
+ * pixel of a mask; the columns that follow are the same without each measure of gn_scene.without, and without all.
+ * --quick: three rows. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +18,9 @@
 #include "pile.h"
 #include "platform.h"
 
-enum { FRAMES = 25, WAYS = 3, MEASURES = 5 };
-static const unsigned measures[MEASURES] = {0, GN_MEASURE_ENDS, GN_MEASURE_SCISSORS, GN_MEASURE_PATCHES, ~0u};
+enum { FRAMES = 25, WAYS = 3, MEASURES = 6 };
+static const unsigned measures[MEASURES] = {
+    0, GN_MEASURE_ENDS, GN_MEASURE_SCISSORS, GN_MEASURE_PATCHES, GN_MEASURE_INTERVALS, ~0u};
 
 static const char vertex_source[] = "attribute highp vec3 a_position;\n"
                                     "attribute highp vec3 a_normal;\n"
@@ -244,12 +246,31 @@ static int draw_passes(host *h)
     return 1;
 }
 
-static double now_ms(void)
+typedef struct moment {
+    double processor, wall; /* ms */
+} moment;
+
+static double read_clock(clockid_t id)
 {
     struct timespec t;
 
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    clock_gettime(id, &t);
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
+}
+
+static moment start_watch(void)
+{
+    const moment now = {read_clock(CLOCK_PROCESS_CPUTIME_ID), read_clock(CLOCK_MONOTONIC)};
+
+    return now;
+}
+
+static void stop_watch(moment start, double *processor, double *wall)
+{
+    const moment now = start_watch();
+
+    *processor = now.processor - start.processor;
+    *wall = now.wall - start.wall;
 }
 
 static int by_value(const void *a, const void *b)
@@ -288,32 +309,32 @@ static int measure(host *h)
 {
     const double aspect = (double)h->target.width / h->target.height;
     const uint32_t work = (uint32_t)h->lump.triangle_count * h->pile.side * h->pile.side * h->pile.side;
-    const uint32_t frames = work * h->pile.light_count > 1000000 ? 3 : FRAMES;
-    double ms[WAYS][FRAMES], planning[FRAMES], fragments[MEASURES], mask_pixels;
+    const uint32_t frames = work * h->pile.light_count > 1000000 ? 7 : FRAMES;
+    double ms[WAYS][FRAMES], wall[WAYS][FRAMES], planning[2][FRAMES], fragments[MEASURES], mask_pixels;
     size_t draws = 0, indices;
 
     for (uint32_t f = 0; f < frames + 2; f++) {
         const uint32_t at = f < 2 ? 0 : f - 2; /* the first two warm up */
-        double start;
+        moment start;
 
         pile_pose(&h->pile, f, aspect);
-        start = now_ms();
+        start = start_watch();
         if (!plan(h, 0) || !draw_passes(h))
             return 0;
         h->gl->glFinish();
-        ms[1][at] = now_ms() - start;
-        start = now_ms();
+        stop_watch(start, &ms[1][at], &wall[1][at]);
+        start = start_watch();
         draw_plain(h);
         h->gl->glFinish();
-        ms[0][at] = now_ms() - start;
-        start = now_ms();
+        stop_watch(start, &ms[0][at], &wall[0][at]);
+        start = start_watch();
         if (!plan(h, 1))
             return 0;
-        planning[at] = now_ms() - start;
+        stop_watch(start, &planning[0][at], &planning[1][at]);
         if (!draw_passes(h))
             return 0;
         h->gl->glFinish();
-        ms[2][at] = now_ms() - start;
+        stop_watch(start, &ms[2][at], &wall[2][at]);
     }
     for (uint32_t r = 0; r < h->plan->record_count; r++)
         draws += 1u + (h->plan->records[r].turned_cap_count > 0);
@@ -326,13 +347,17 @@ static int measure(host *h)
         fragments[i] = (double)count_fragments(h) / mask_pixels;
     }
     h->scene.without = 0;
-    for (int way = 0; way < WAYS; way++)
+    for (int way = 0; way < WAYS; way++) {
         qsort(ms[way], frames, sizeof(double), by_value);
-    qsort(planning, frames, sizeof(double), by_value);
-    printf("%lu,%u,%u,%ux%u,%.2f,%.2f,%.2f,%.2f,%.2f,%lu,%lu", (unsigned long)h->lump.triangle_count,
+        qsort(wall[way], frames, sizeof(double), by_value);
+    }
+    qsort(planning[0], frames, sizeof(double), by_value);
+    printf("%lu,%u,%u,%ux%u,%.2f,%.2f,%.2f,%.2f,%.2f,%.2f,%lu,%lu", (unsigned long)h->lump.triangle_count,
            (unsigned)(h->pile.object_count - 1), (unsigned)h->pile.light_count, (unsigned)h->target.width,
-           (unsigned)h->target.height, ms[0][frames / 2], ms[1][frames / 2], ms[2][frames / 2], planning[frames / 2],
-           (ms[2][frames / 2] - ms[1][frames / 2]) / ms[0][frames / 2], (unsigned long)draws, (unsigned long)indices);
+           (unsigned)h->target.height, ms[0][frames / 2], ms[1][frames / 2], ms[2][frames / 2], planning[0][frames / 2],
+           (ms[2][frames / 2] - ms[1][frames / 2]) / ms[0][frames / 2],
+           (wall[2][frames / 2] - wall[1][frames / 2]) / wall[0][frames / 2], (unsigned long)draws,
+           (unsigned long)indices);
     for (int i = 0; i < MEASURES; i++)
         printf(",%.2f", fragments[i]);
     printf("\n");
@@ -385,8 +410,9 @@ int main(int argument_count, char **arguments)
     static const uint32_t sizes[3][2] = {{320, 240}, {640, 480}, {1024, 768}};
     const int quick = argument_count > 1 && strcmp(arguments[1], "--quick") == 0;
 
-    printf("triangles,casters,lights,size,one_pass_ms,same_passes_ms,shadows_ms,planning_ms,shadow_part,draws,indices,"
-           "fragments,without_ends,without_scissors,without_patches,without_all\n");
+    printf("triangles,casters,lights,size,one_pass_ms,same_passes_ms,shadows_ms,planning_ms,shadow_part,wall_part,"
+           "draws,indices,"
+           "fragments,without_ends,without_scissors,without_patches,without_intervals,without_all\n");
     if (quick)
         return !run(43, 44, 1, 1, 640, 480) || !run(43, 44, 2, 2, 640, 480) || !run(16, 16, 3, 4, 640, 480);
     for (int m = 0; m < 3; m++)

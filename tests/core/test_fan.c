@@ -86,7 +86,7 @@ static void fans_cover_what_caps_do(void **state)
     static uint16_t indices[2][GNI_MOST_INDICES * 400];
     static uint32_t first[GN_CHUNK_VERTICES], next[3 * 400];
     static uint16_t loop[3 * 400 + 1];
-    const gni_walk walk = {first, next, loop};
+    const gni_walk walk = {GN_CHUNK_VERTICES, first, next, loop};
     uint32_t found = 0, none = 0, covered = 0, enclosed = 0;
 
     (void)state;
