@@ -6,9 +6,10 @@
  * plan says how far the light has moved meanwhile. A stream is made on the second frame in which nothing has changed,
  * so that what moves costs nothing here; with looser rules at once.
  *
- * A stream has, chunk by chunk, all parts of the volume in the order dark cap, sides, light cap, turned light cap: each
- * record is a run of it. Room is taken from one array from its front; a stream that is made anew keeps its room if it
- * fits. When the array is full all is dropped, and it grows: in frames to come all that stays is made again. */
+ * A stream has, chunk by chunk, all parts of the volume in the order light cap, sides, dark cap, near cap, turned
+ * light cap: each record is a run of it. Room is taken from one array from its front; a stream that is made anew
+ * keeps its room if it fits. When the array is full all is dropped, and it grows: in frames to come all that stays is
+ * made again. */
 #include "gni_plan.h"
 
 #include <math.h>

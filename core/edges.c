@@ -1,13 +1,13 @@
 /* edges.c - every edge once, with all its uses by triangles and their directions.
  *
- * A mesh may have any number of triangles at an edge. Edges are found in a hash table by their two vertices and numbered
- * in order of their first use; uses of one stand together, in order of their corners. */
+ * A mesh may have any number of triangles at an edge. Edges are found in a hash table by their two vertices and
+ * numbered in order of their first use; uses of one stand together, in order of their corners. */
 #include "gni.h"
 
 #include <string.h>
 
-/* While edges are found. counts stands one place on in edge_uses: of uses, then where the next use goes, which at last is
- * where the next edge starts. */
+/* While edges are found. counts stands one place on in edge_uses: of uses, then where the next use goes, which at
+ * last is where the next edge starts. */
 typedef struct finder {
     uint32_t *table; /* [mask + 1] edges, or GNI_NONE */
     uint32_t mask;
@@ -115,7 +115,7 @@ gn_result gni_make_edges(gn_mesh *mesh)
     finder f = {NULL, 1, NULL, NULL, 0};
     int failed;
 
-    while (f.mask < most) /* of a closed mesh half as many */
+    while (f.mask < most + most / 2) /* of a closed mesh there are half as many */
         f.mask = 2 * f.mask + 1;
     f.table = gni_alloc(context, (size_t)f.mask + 1, sizeof *f.table);
     f.keys = gni_alloc(context, most, sizeof *f.keys);

@@ -112,6 +112,8 @@ size_t gn_plan_explain_caster(const gn_plan *plan, uint32_t light, uint32_t obje
         gni_put(&s, " as a fan");
     if (c->is_ended)
         gni_put(&s, ", ended behind the last thing that it may shadow");
+    if (c->parts & GN_NEAR_CAP)
+        gni_put(&s, ", left out where there is nothing to shadow");
     separator = "; projected on patch ";
     for (uint32_t p = 0; p < plan->patch_count; p++)
         if (c->patches >> p & 1) {

@@ -67,9 +67,11 @@ int gni_is_object_before(const gni_draft *d, uint32_t object, const double plane
     return lowest + plane[3] > GNI_MARGIN * (fabs(lowest) + fabs(plane[3]));
 }
 
-void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object, const gni_hull *box, const uint32_t rectangle[4])
+void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object)
 {
-    gni_join_rectangles(e->needed, rectangle);
+    const gni_hull *box = &d->fronts[object].box;
+
+    gni_join_rectangles(e->needed, d->fronts[object].rectangle);
     for (int n = 0; n < GNI_NORMALS; n++)
         e->lowest[n] = fmin(e->lowest[n], gni_lowest_of(e->normals[n], box, d->balls[object]));
     for (int i = 0; i < box->point_count; i++) {
@@ -77,7 +79,7 @@ void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object, const gni_hul
         e->greatest =
             fmax(e->greatest, fmax(fabs(box->points[i][0]), fmax(fabs(box->points[i][1]), fabs(box->points[i][2]))));
     }
-    d->touched[e->touched++] = object;
+    d->touched[e->touched++].object = object;
 }
 
 void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object)
@@ -133,7 +135,8 @@ static double length_to(const double normal[3], double highest, double lowest, c
     return (from_end / gap - 1.0) * (sqrt(gni_dot(spoke, spoke)) + ball[3]);
 }
 
-int gni_move_box(double out[8][3], const gni_hull *box, const double light[4], const double plane[4])
+/* The corners of a box moved to a plane; 0 where one has no place there. */
+static int move_box(double out[8][3], const gni_hull *box, const double light[4], const double plane[4])
 {
     const double of_light = gni_dot(plane, light) + plane[3] * light[3];
     double extrusion[16];
@@ -179,15 +182,15 @@ void gni_find_moves(double moves[2], const gni_draft *d, uint32_t object, const 
     }
 }
 
-/* The caster's box, or where the volume starts, and its end; the volume stays without end where a corner of the box, which is no vertex, has
- * none. */
+/* The caster's box, or where the volume starts, and its end; the volume stays without end where a corner of the box,
+ * which is no vertex, has none. */
 static void ended_hull(gni_hull *volume, const gni_extent *e, const gni_hull *box, const double light[4])
 {
     gni_hull out = *box;
 
     out.point_count = 16;
-    if ((!e->is_detached || gni_move_box(out.points, box, light, e->start_plane)) &&
-        gni_move_box(out.points + 8, box, light, e->end_plane))
+    if ((!e->is_detached || move_box(out.points, box, light, e->start_plane)) &&
+        move_box(out.points + 8, box, light, e->end_plane))
         *volume = out;
 }
 

@@ -113,12 +113,17 @@ struct gn_shadow_cache {
     uint32_t version, base_version, dirty[2], built;
 };
 
-/* narrow.c: of a receiver, in the light at hand, what others' volumes must reach. */
-typedef struct gni_narrow {
-    enum { GNI_UNKNOWN, GNI_WHOLE, GNI_NARROWED, GNI_NOTHING } is;
+/* fronts.c: of an object, what is seen. */
+typedef struct gni_fronts {
     gni_hull box;
     uint32_t rectangle[4];
-} gni_narrow;
+} gni_fronts;
+
+/* What a volume may touch, and between which levels of intervals.c it is. */
+typedef struct gni_touched {
+    uint32_t object;
+    double start, end;
+} gni_touched;
 
 /* The silhouette of a cap on a patch: sides, of which it takes the first two indices. */
 typedef struct gni_outline {
@@ -138,9 +143,9 @@ typedef struct gni_draft {
     gn_plan_caster *casters;
     gni_hull *boxes;                       /* [object_count] of objects, in view space */
     double (*balls)[4];                    /* [object_count] centre and radius of a ball around each */
-    gni_narrow *narrow;                    /* [object_count] */
-    uint64_t *away[3];                     /* [clusters of the largest] scratch of narrow.c */
-    uint32_t *touched;                     /* [object_count] by the extent at hand */
+    gni_fronts *fronts;                    /* [object_count] */
+    uint64_t *facing[2];                   /* [clusters of the largest] scratch of fronts.c */
+    gni_touched *touched;                  /* [object_count] by the extent at hand */
     uint32_t (*rectangles)[4];             /* [object_count] pixels in which they may be seen */
     uint8_t *is_in;                        /* [object_count] of the light at hand: GNI_IN_* */
     double (*heights)[GN_MOST_PATCHES][2]; /* [object_count] over each patch; NAN: not known yet */
@@ -221,8 +226,8 @@ typedef struct gni_extent {
 void gni_start_extent(gni_extent *e, const gni_draft *d, uint32_t object);
 /* Whether all of an object surely lies where the plane, of unit normal, is positive. */
 int gni_is_object_before(const gni_draft *d, uint32_t object, const double plane[4]);
-/* Its volume may shadow this object, or itself. */
-void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object, const gni_hull *box, const uint32_t rectangle[4]);
+/* Its volume may touch what is seen of this object. */
+void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object);
 /* Chooses end and scissor. volume: on entry without end; becomes what is drawn. Returns 0 when nothing is seen of
  * what it may shadow. */
 int gni_end_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull *volume);
@@ -234,17 +239,14 @@ double gni_lowest_of(const double normal[3], const gni_hull *box, const double b
 double gni_behind(const gni_extent *e, const gni_draft *d, double lowest);
 /* The least and the most that the caster's vertices are moved to a level: as gni_extent.moves. */
 void gni_find_moves(double moves[2], const gni_draft *d, uint32_t object, const double normal[3], double level);
-/* The corners of a box moved to a plane; 0 where one has no place there. */
-int gni_move_box(double out[8][3], const gni_hull *box, const double light[4], const double plane[4]);
 
-const gni_narrow *gni_narrow_receiver(const gni_draft *d, uint32_t object);
+/* fronts.c */
+void gni_find_fronts(gni_draft *d);
 
 /* intervals.c */
 #define GNI_MOST_INTERVALS 4
 /* Cuts an ended extent into those that are needed and seen. Returns how many. */
 uint32_t gni_cut_extent(gni_extent out[GNI_MOST_INTERVALS], const gni_extent *e, const gni_draft *d, uint32_t object);
-
-int gni_is_exempt(const gn_light *light, uint32_t object);
 
 /* patches.c */
 void gni_find_patches(gni_draft *d);
@@ -292,8 +294,8 @@ typedef struct gni_volume {
     int unpatched; /* as in gn_record */
 } gni_volume;
 
-/* slivers.c: the eye in the space of the volume's mesh, and between which of its heights over a triangle's plane that is
- * drawn in a light cap by z-pass. 0 where all must be drawn. */
+/* slivers.c: the eye in the space of the volume's mesh, and between which of its heights over a triangle's plane that
+ * is drawn in a light cap by z-pass. 0 where all must be drawn. */
 int gni_find_slivers(const gni_draft *d, const gni_volume *volume, double eye[4], double heights[2]);
 uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, const double eye[4],
                          const double heights[2], uint16_t *out);
@@ -315,8 +317,8 @@ void gni_note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t
 int gni_add_kept_records(gni_draft *d, const gni_volume *volumes, uint32_t count);
 /* Fans of the same caster on patches, into d->flats. first_record: of its volume, if it has one. */
 void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record);
-/* Records of volumes of one caster, which share their indices: a record for each chunk that has any of each. Returns the
- * sum of the silhouette's weights, or GNI_NONE where no sides are drawn. */
+/* Records of volumes of one caster, which share their indices: a record for each chunk that has any of each. Returns
+ * the sum of the silhouette's weights, or GNI_NONE where no sides are drawn. */
 uint32_t gni_add_records(gni_draft *d, const gni_volume *volumes, uint32_t count, const gni_casting *casting);
 
 /* sweep.c: no point has more layers of the records from first_record on than this; UINT32_MAX where that is not

@@ -88,7 +88,7 @@ typedef struct gn_mesh_desc {
 
 /* Vertices that one set of 16-bit indices reaches. Its vertices are welded vertices; one that several chunks need is in
  * each. Index 2 i is vertex i as it is (near), 2 i + 1 the same vertex moved away from the light (far). After the last
- * comes the mesh's hub, about which fans are drawn. */
+ * comes the mesh's hub, where open ends of its silhouette meet. */
 typedef struct gn_chunk {
     uint32_t first_vertex, vertex_count;     /* in gn_mesh_info.chunk_vertices */
     uint32_t first_triangle, triangle_count; /* in gn_mesh_info.corners */
@@ -166,8 +166,8 @@ gn_result gn_silhouette(const gn_mesh *mesh, const int8_t *casting, gn_edge *edg
 
 /* Index streams of casters that do not move as a light does not, so that a moving camera rebuilds nothing and sends no
  * index. Handed to the planner in gn_scene.cache; objects and lights are known by their places in the scene's arrays.
- * Meshes of up to 4 chunks. Holds some 30 bytes a triangle for each light; grows in a frame that has more to keep, and
- * allocates nothing in others. */
+ * Meshes of up to 4 chunks. Holds some 80 to 160 bytes a triangle for each light; grows in a frame that has more to
+ * keep, and allocates nothing in others. */
 typedef struct gn_shadow_cache gn_shadow_cache;
 
 /* Choices: a shadow is found anew only every so many frames, or when its light has moved so far as the caster sees it
@@ -314,7 +314,8 @@ enum {
     GN_MEASURE_ENDS = 1,     /* volumes end right behind the last thing that they may shadow, or at the light's reach */
     GN_MEASURE_SCISSORS = 2, /* and are counted only where such things are seen */
     GN_MEASURE_PATCHES = 4,  /* on flat receivers projections are counted, and volumes reach the others only */
-    GN_MEASURE_INTERVALS = 8 /* ended volumes are left out between the things that they may shadow */
+    /* ended volumes are left out between the things that they may shadow, of which only what is seen counts */
+    GN_MEASURE_INTERVALS = 8
 };
 
 #define GN_MOST_PATCHES 3 /* planes whose flat receivers need no volumes; two bits of stencil name them */
@@ -436,7 +437,7 @@ typedef struct gn_plan_light {
 typedef struct gn_plan_caster {
     uint8_t skip;         /* gn_skip */
     uint8_t mcguire_case; /* 1 to 3; 0 when it has no volume */
-    uint8_t parts;        /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP: drawn */
+    uint8_t parts;        /* of GN_SIDES, GN_LIGHT_CAP, GN_DARK_CAP, GN_NEAR_CAP: drawn */
     uint8_t fan;          /* its dark cap is a fan */
     uint8_t patches;      /* on which it is projected: bit p for patch p + 1 */
     uint8_t is_ended;     /* its volume ends behind the last thing that it may shadow */
@@ -511,8 +512,9 @@ size_t gn_plan_bound(const gn_scene *scene);
 /* Makes the plan of a frame in the given memory (aligned for double). Pure but for the cache: equal scenes give equal
  * bytes. Allocates nothing, but for a cache that grows. Returns GN_OK; GN_E_ARG for what is not finite or out of range;
  * GN_E_SPACE; GN_E_DEVICE when the method needs what the target lacks, or when a volume would be clipped at the far
- * plane. Cost, for each light: O(triangles of casters); boxes of casters against boxes of receivers until one is
- * touched; and where more layers are possible than the stencil counts, a few times as much again for each batch. */
+ * plane. Cost, for each light: O(triangles of casters); boxes of casters against boxes of receivers; a facing
+ * of each receiver for the eye, once; and where more layers are possible than the stencil counts, a few
+ * times as much again for each batch. */
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan);
 
 /* The method of one of the plan's lights with its suffix: "zfail", "zfail/one-sided". Static; "" for a light that is

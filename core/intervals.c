@@ -2,10 +2,11 @@
  *
  * Between the caster and what it may shadow, and between that and the next, nobody reads the count. So what an ended
  * volume may touch is sorted along the normal of its end, and the volume is drawn in the intervals that hold any of it
- * (clamping, Lloyd et al. 2004, there with finer and dearer bounds). An interval is a closed volume of its own: sides from
- * its start plane to its end plane, and a cap on each. Inside it the count is that of the whole volume; so planes lie
- * before and behind what is touched by more than depth can confuse, as the end does (extent.c), and all of the caster
- * lies before the first start plane. A gap that is short on the image is not worth two caps and a draw. */
+ * (clamping, Lloyd et al. 2004, there with finer and dearer bounds). An interval is a closed volume of its own: sides
+ * from its start plane to its end plane, and a cap on each. Inside it the count is that of the whole volume; so planes
+ * lie before and behind what is touched by more than depth can confuse, as the end does (extent.c), and all of the
+ * caster lies before the first start plane. A gap that is
+ * short on the image is not worth two caps and a draw. */
 #include "gni_plan.h"
 
 #include <math.h>
@@ -43,35 +44,16 @@ static int is_worth_it(const gni_draft *d, uint32_t object, const double normal[
            hypot(a[0] - b[0], a[1] - b[1]) > WORTH;
 }
 
-/* What is touched of an object: of the caster itself all. */
-static const gni_hull *box_of(const gni_draft *d, uint32_t caster, uint32_t object)
+/* Those of the touched that start the highest, first. */
+static void sort_touched(gni_touched *touched, uint32_t count)
 {
-    return object == caster ? &d->boxes[object] : &gni_narrow_receiver(d, object)->box;
-}
-
-static double lowest_touched(const double normal[3], const gni_draft *d, uint32_t caster, uint32_t object)
-{
-    return gni_lowest_of(normal, box_of(d, caster, object), d->balls[object]);
-}
-
-static void add_to_span(span *s, const uint32_t rectangle[4], double end)
-{
-    s->end = fmin(s->end, end);
-    s->count++;
-    gni_join_rectangles(s->needed, rectangle);
-}
-
-/* Those of the touched that are the highest, first. */
-static void sort_touched(const gni_extent *e, const gni_draft *d, uint32_t caster, const double down[3])
-{
-    for (uint32_t i = 1; i < e->touched; i++) {
-        const uint32_t object = d->touched[i];
-        const double key = lowest_touched(down, d, caster, object);
+    for (uint32_t i = 1; i < count; i++) {
+        const gni_touched it = touched[i];
         uint32_t at = i;
 
-        for (; at > 0 && lowest_touched(down, d, caster, d->touched[at - 1]) > key; at--)
-            d->touched[at] = d->touched[at - 1];
-        d->touched[at] = object;
+        for (; at > 0 && touched[at - 1].start < it.start; at--)
+            touched[at] = touched[at - 1];
+        touched[at] = it;
     }
 }
 
@@ -82,22 +64,28 @@ uint32_t gni_cut_extent(gni_extent out[GNI_MOST_INTERVALS], const gni_extent *e,
     span spans[GNI_MOST_INTERVALS] = {{INFINITY, own, {0}, 0}};
     uint32_t count = 1, seen = 0;
 
-    sort_touched(e, d, object, down);
     for (uint32_t i = 0; i < e->touched; i++) {
-        const uint32_t other = d->touched[i];
-        const double lowest = lowest_touched(normal, d, object, other);
-        const double highest = -lowest_touched(down, d, object, other);
-        const double start = -gni_behind(e, d, -highest), end = fmax(gni_behind(e, d, lowest), -e->end_plane[3]);
+        gni_touched *t = &d->touched[i];
 
-        if (start <= -e->end_plane[3])
+        t->start = -gni_behind(e, d, gni_lowest_of(down, &d->fronts[t->object].box, d->balls[t->object]));
+        t->end = gni_behind(e, d, gni_lowest_of(normal, &d->fronts[t->object].box, d->balls[t->object]));
+    }
+    sort_touched(d->touched, e->touched);
+    for (uint32_t i = 0; i < e->touched; i++) {
+        const gni_touched *t = &d->touched[i];
+        span *s = &spans[count - 1];
+
+        if (t->start <= -e->end_plane[3])
             continue; /* out of reach */
-        if (count < GNI_MOST_INTERVALS && is_worth_it(d, object, normal, spans[count - 1].end, start)) {
-            memset(&spans[count], 0, sizeof spans[count]);
-            spans[count].start = start;
-            spans[count++].end = end;
+        if (count < GNI_MOST_INTERVALS && is_worth_it(d, object, normal, s->end, t->start)) {
+            s = &spans[count++];
+            memset(s, 0, sizeof *s);
+            s->start = t->start;
+            s->end = INFINITY;
         }
-        add_to_span(&spans[count - 1],
-                    other == object ? d->rectangles[other] : gni_narrow_receiver(d, other)->rectangle, end);
+        s->end = fmax(fmin(s->end, t->end), -e->end_plane[3]);
+        gni_join_rectangles(s->needed, d->fronts[t->object].rectangle);
+        s->count++;
     }
     for (uint32_t i = 0; i < count; i++) {
         gni_extent *interval = &out[seen];
@@ -118,7 +106,13 @@ uint32_t gni_cut_extent(gni_extent out[GNI_MOST_INTERVALS], const gni_extent *e,
         }
         gni_find_moves(interval->moves, d, object, normal, spans[i].end);
         gni_volume_hull(&volume, &d->boxes[object], d->bounds.light);
-        seen += gni_see_extent(interval, d, object, &volume) ? 1 : 0;
+        if (!gni_see_extent(interval, d, object, &volume))
+            continue;
+        /* the case at hand was asked of these pixels */
+        gni_meet_rectangles(interval->scissor, e->scissor);
+        gni_meet_rectangles(interval->image, e->scissor);
+        gni_meet_rectangles(interval->end_image, e->scissor);
+        seen += interval->image[2] > 0 && interval->image[3] > 0;
     }
     return seen;
 }

@@ -101,7 +101,6 @@ void gni_find_planes(gn_mesh *mesh)
         const double edge = plane_of(positions, corners + 3 * (size_t)t, plane, &square);
 
         longest = longest > edge ? longest : edge;
-        square = square_of(plane);
         if (square == 0.0) /* products of floats' differences do not vanish in doubles */
             continue;
         if (!first)

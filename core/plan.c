@@ -50,7 +50,7 @@ static int lay_out(gni_draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
     const uint32_t limit = batch_limit(s);
-    size_t records = 0, chunks = 0, indices = 0, triangles = 0, all = 0, batches = 1, vertices = 0;
+    size_t records = 0, chunks = 0, indices = 0, triangles = 0, all = 0, batches = 1, vertices = 0, largest = 0;
     const size_t most =
         UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
 
@@ -58,6 +58,8 @@ static int lay_out(gni_draft *d, arena *a)
         const gn_mesh *mesh = s->objects[i].mesh;
         size_t ends = 1, pieces;
 
+        if (mesh)
+            largest = largest < mesh->info.triangle_count ? mesh->info.triangle_count : largest;
         if (!mesh || !(s->objects[i].flags & GN_CASTS))
             continue;
         if (s->camera.orthographic)
@@ -87,9 +89,9 @@ static int lay_out(gni_draft *d, arena *a)
     d->rectangles = cut(a, s->object_count, sizeof *d->rectangles);
     d->balls = cut(a, s->object_count, sizeof *d->balls);
     d->is_in = cut(a, s->object_count, 1);
-    d->narrow = cut(a, s->object_count, sizeof *d->narrow);
-    for (int i = 0; i < 3; i++)
-        d->away[i] = cut(a, (triangles + GNI_CLUSTER - 1) / GNI_CLUSTER, sizeof *d->away[i]);
+    d->fronts = cut(a, s->object_count, sizeof *d->fronts);
+    for (int i = 0; i < 2; i++)
+        d->facing[i] = cut(a, (largest + GNI_CLUSTER - 1) / GNI_CLUSTER, sizeof *d->facing[i]);
     d->touched = cut(a, s->object_count, sizeof *d->touched);
     d->heights = cut(a, s->object_count, sizeof *d->heights);
     d->records = cut(a, (records + GN_MOST_PATCHES * chunks) * s->light_count, sizeof *d->records);
@@ -310,6 +312,7 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     if (result != GN_OK)
         return result;
     gni_find_patches(d);
+    gni_find_fronts(d);
     d->plan->patch_count = d->patch_count;
     for (uint32_t p = 0; p < d->patch_count; p++)
         gni_plane_before(d->plan->patches[p], d->patches[p].plane, d->view);

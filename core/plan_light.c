@@ -25,7 +25,7 @@ void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4])
     out[3] = is_sun ? 0.0 : 1.0;
 }
 
-int gni_is_exempt(const gn_light *light, uint32_t object)
+static int is_exempt(const gn_light *light, uint32_t object)
 {
     for (uint32_t i = 0; i < light->exempt_count; i++)
         if (light->exempt[i] == object)
@@ -52,7 +52,7 @@ static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand, g
     at_hand->seen = GNI_SEES_CASTER | GNI_SEES_FAR | GNI_SEES_VOLUME;
     if (!(flags & GN_CASTS))
         return GN_SKIP_NO_CASTER;
-    if (gni_is_exempt(light, object))
+    if (is_exempt(light, object))
         return GN_SKIP_EXEMPT;
     if (method != GN_METHOD_STENCIL)
         return GN_SKIP_NOT;
@@ -352,8 +352,6 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
         return skip_light(d, d->bounds.skip);
     memcpy(about->scissor, d->bounds.scissor, sizeof about->scissor);
     gni_make_view(&d->seen, &s->camera, &s->target, about->scissor);
-    for (uint32_t i = 0; i < s->object_count; i++)
-        d->narrow[i].is = GNI_UNKNOWN;
     most = find_lit(d, &any_receiver, &any_other);
     if (about->method == GN_METHOD_STENCIL) {
         if (!any_receiver && !any_other)

@@ -167,6 +167,7 @@ static void add_intervals(gni_draft *d, uint32_t object, const gni_case *at_hand
 {
     gni_extent intervals[GNI_MOST_INTERVALS];
     gni_volume volumes[GNI_MOST_INTERVALS];
+    gni_case of_interval = *at_hand; /* the case was asked of the whole, whose end may be out of view */
     const gn_mesh_info *info = &d->scene->objects[object].mesh->info;
     uint32_t count = 1;
 
@@ -174,10 +175,13 @@ static void add_intervals(gni_draft *d, uint32_t object, const gni_case *at_hand
     if (d->receivers_are_known && info->solid_part_count == info->part_count && d->lights[d->light].stencil.wrap &&
         !d->is_batched && !(d->scene->without & GN_MEASURE_INTERVALS))
         count = gni_cut_extent(intervals, extent, d, object);
+    if (count > 0 && memcmp(intervals[0].end_plane, extent->end_plane, sizeof extent->end_plane) != 0)
+        of_interval.seen |= GNI_SEES_FAR;
     for (uint32_t i = 0; i < count; i++) {
         const gni_extent *e = &intervals[i];
-        const gni_volume v = {object,       at_hand, e,        GN_FAR_ENDED, e->is_detached ? e->start_plane : NULL,
-                              e->end_plane, 0.0,     unpatched};
+        const gni_volume v = {
+            object,       &of_interval, e,        GN_FAR_ENDED, e->is_detached ? e->start_plane : NULL,
+            e->end_plane, 0.0,          unpatched};
 
         volumes[i] = v;
     }

@@ -75,15 +75,10 @@ static int ball_misses(const double caster[4], const double light[4], const doub
     return across * sqrt(1.0 - sine * sine) - along * sine > other[3] * (1.0 + GNI_MARGIN);
 }
 
-/* What a volume may touch of another object; NULL for nothing. */
-static const gni_narrow *find_touched(const gni_draft *d, uint32_t caster, const gni_hull *volume, uint32_t other)
+static int is_touched(const gni_draft *d, uint32_t caster, const gni_hull *volume, uint32_t other)
 {
-    const gni_narrow *n;
-
-    if (ball_misses(d->balls[caster], d->bounds.light, d->balls[other]))
-        return NULL;
-    n = gni_narrow_receiver(d, other);
-    return n->is == GNI_NOTHING || gni_volume_misses(volume, d->bounds.light, &n->box) ? NULL : n;
+    return !ball_misses(d->balls[caster], d->bounds.light, d->balls[other]) &&
+           !gni_volume_misses(volume, d->bounds.light, &d->fronts[other].box);
 }
 
 /* Whether the caster's volume need not cover the object: it is a patch, and the caster spares or fans it. */
@@ -104,16 +99,13 @@ int gni_find_extent(gni_extent *e, const gni_draft *d, uint32_t object, gni_hull
     is_flat = plane && border_is_unseen(d, object);
     if (!is_flat && d->is_in[object] & GNI_IN_LIT && d->scene->objects[object].flags & GN_RECEIVES &&
         !is_patched(e, d, object))
-        gni_touch(e, d, object, &d->boxes[object], d->rectangles[object]); /* itself */
+        gni_touch(e, d, object); /* itself */
     if (e->touched == 0 && gni_volume_misses(volume, d->bounds.light, &d->all_lit))
         return 0;
     for (uint32_t i = 0; i < d->scene->object_count; i++)
         if (i != object && d->is_in[i] & GNI_IN_LIT && d->scene->objects[i].flags & GN_RECEIVES &&
-            !is_patched(e, d, i) && !(is_flat && gni_lies_before(&d->boxes[i], plane))) {
-            const gni_narrow *n = find_touched(d, object, volume, i);
-
-            if (n)
-                gni_touch(e, d, i, &n->box, n->rectangle);
-        }
+            !is_patched(e, d, i) && !(is_flat && gni_lies_before(&d->boxes[i], plane)) &&
+            is_touched(d, object, volume, i))
+            gni_touch(e, d, i);
     return e->touched > 0 && gni_end_extent(e, d, object, volume);
 }

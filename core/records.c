@@ -30,9 +30,9 @@ static int greatest_exponent(const double m[16])
     return exponent;
 }
 
-/* projection * extrusion * model_view, like near_matrix. Homogeneous matrices mean the same at any scale, and a power of
- * two keeps every bit: far vertices get the magnitude of near ones. A light far away stays within float, and clipping a
- * side between the two rounds alike in every unit of length. */
+/* projection * extrusion * model_view, like near_matrix. Homogeneous matrices mean the same at any scale, and a power
+ * of two keeps every bit: far vertices get the magnitude of near ones. A light far away stays within float, and
+ * clipping a side between the two rounds alike in every unit of length. */
 static void multiply_like(double out[16], const double projection[16], const double extrusion[16],
                           const double model_view[16], const double near_matrix[16])
 {
@@ -290,7 +290,7 @@ static int share_record(const gni_draft *d, uint32_t first_record, uint32_t chun
     for (uint32_t i = first_record; i < d->plan->record_count; i++) {
         const gn_record *r = &d->records[i];
 
-        if (r->chunk != chunk || r->side_count == 0)
+        if (r->chunk != chunk || r->side_count == 0 || r->is_cached)
             continue;
         outline->first = r->first_side;
         outline->count = r->side_count;

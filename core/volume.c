@@ -13,8 +13,8 @@
  * and the dark cap has no area (McGuire 2003, section 6). The dark cap may be a fan over the silhouette instead, a
  * triangle an edge (fan.c says where).
  *
- * Order of a chunk's indices: sides, dark cap, light cap, turned light cap. The light cap keeps the drawn order of its
- * vertices: another order would give other depths (DESIGN.md, decision 4). */
+ * Order of a chunk's indices: light cap, sides, dark cap, near cap, turned light cap. The light cap keeps the drawn
+ * order of its vertices: another order would give other depths (DESIGN.md, decision 4). */
 #include "gni.h"
 
 #include <string.h>
