@@ -69,11 +69,11 @@ int gni_is_object_before(const gni_draft *d, uint32_t object, const double plane
 
 void gni_touch(gni_extent *e, const gni_draft *d, uint32_t object)
 {
-    const gni_hull *box = &d->fronts[object].box;
+    const gni_hull *box = &d->boxes[object];
 
     gni_join_rectangles(e->needed, d->fronts[object].rectangle);
     for (int n = 0; n < GNI_NORMALS; n++)
-        e->lowest[n] = fmin(e->lowest[n], gni_lowest_of(e->normals[n], box, d->balls[object]));
+        e->lowest[n] = fmin(e->lowest[n], gni_lowest_seen(e->normals[n], d, object));
     for (int i = 0; i < box->point_count; i++) {
         e->deepest = fmax(e->deepest, -box->points[i][2]);
         e->greatest =

@@ -1,7 +1,7 @@
 /* fronts.c - of a solid that is drawn only fronts are seen, and only what is seen need be shadowed.
  *
  * A back lies behind some front. So of a solid that receives, with all of it before the eye, a box around the triangles
- * that face the eye takes the place of the box around all: one axis towards the eye, and the pixels in which it may be
+ * that face the eye stands beside the box around all: one axis towards the eye, and the pixels in which it may be
  * seen. It says what a volume may touch, where it may end and start, and where it must be counted. Found once a
  * frame. */
 #include "gni_plan.h"
@@ -105,6 +105,13 @@ static void find_fronts(gni_fronts *f, const gni_draft *d, uint32_t index)
     fill_box(&f->box, axes, range);
     gni_find_rectangle(f->rectangle, &f->box, &d->scene->camera, &d->scene->target);
     gni_meet_rectangles(f->rectangle, d->rectangles[index]);
+}
+
+/* Either box may be the closer one. */
+double gni_lowest_seen(const double normal[3], const gni_draft *d, uint32_t object)
+{
+    return fmax(gni_lowest_of(normal, &d->boxes[object], d->balls[object]),
+                gni_lowest_of(normal, &d->fronts[object].box, d->balls[object]));
 }
 
 void gni_find_fronts(gni_draft *d)

@@ -242,6 +242,8 @@ void gni_find_moves(double moves[2], const gni_draft *d, uint32_t object, const 
 
 /* fronts.c */
 void gni_find_fronts(gni_draft *d);
+/* The least value along a normal of what is seen of an object. */
+double gni_lowest_seen(const double normal[3], const gni_draft *d, uint32_t object);
 
 /* intervals.c */
 #define GNI_MOST_INTERVALS 4

@@ -12,7 +12,8 @@
 #include <math.h>
 #include <string.h>
 
-#define WORTH 12.0 /* pixels of the image: so long must a gap be */
+#define LEAST 12.0 /* pixels of the image: so long must a gap be, for a draw of its own, */
+#define CAPS  1.6  /* and so many times as long as a cap's radius is high */
 
 /* Levels along the normal, the higher one first. */
 typedef struct span {
@@ -20,28 +21,36 @@ typedef struct span {
     uint32_t needed[4], count;
 } span;
 
-/* Where the caster's middle gets to at a level; 0 where that is behind the eye. */
-static int find_place(double out[2], const gni_draft *d, uint32_t object, const double normal[3], double level)
+/* Where the caster's middle gets to at a level, in pixels, and how large a cap is there: half the height of its image,
+ * as the ball around the caster gives it, seen as flat as it is. 0 where that is behind the eye. */
+static int find_place(double out[3], const gni_draft *d, uint32_t object, const double normal[3], double level)
 {
     const gn_camera *camera = &d->scene->camera;
     const double *light = d->bounds.light, *ball = d->balls[object];
     const double of_light = gni_dot(normal, light), of_ball = gni_dot(normal, ball);
+    const double grown = light[3] == 0.0 ? 1.0 : (of_light - level) / (of_light - of_ball);
+    const double pixels = d->whole[3] / (camera->top - camera->bottom);
     double p[3];
 
     for (int k = 0; k < 3; k++)
         p[k] = light[3] == 0.0 ? ball[k] + (level - of_ball) / of_light * light[k]
-                               : light[k] + (of_light - level) / (of_light - of_ball) * (ball[k] - light[k]);
+                               : light[k] + grown * (ball[k] - light[k]);
     out[0] = p[0] / -p[2] * d->whole[2] / (camera->right - camera->left);
-    out[1] = p[1] / -p[2] * d->whole[3] / (camera->top - camera->bottom);
+    out[1] = p[1] / -p[2] * pixels;
+    out[2] = grown * ball[3] / -p[2] * pixels * fabs(gni_dot(normal, p)) / sqrt(gni_dot(p, p));
     return -p[2] > camera->znear;
 }
 
+/* Whether the sides between two levels cover more than caps on both: 4 r g pixels, 2 r wide before and behind, for twice
+ * pi r^2. */
 static int is_worth_it(const gni_draft *d, uint32_t object, const double normal[3], double from, double to)
 {
-    double a[2], b[2];
+    double a[3], b[3], gap;
 
-    return from > to && find_place(a, d, object, normal, from) && find_place(b, d, object, normal, to) &&
-           hypot(a[0] - b[0], a[1] - b[1]) > WORTH;
+    if (!(from > to) || !find_place(a, d, object, normal, from) || !find_place(b, d, object, normal, to))
+        return 0;
+    gap = hypot(a[0] - b[0], a[1] - b[1]);
+    return gap > LEAST && gap > CAPS * 0.5 * (a[2] + b[2]);
 }
 
 /* Those of the touched that start the highest, first. */
@@ -67,8 +76,8 @@ uint32_t gni_cut_extent(gni_extent out[GNI_MOST_INTERVALS], const gni_extent *e,
     for (uint32_t i = 0; i < e->touched; i++) {
         gni_touched *t = &d->touched[i];
 
-        t->start = -gni_behind(e, d, gni_lowest_of(down, &d->fronts[t->object].box, d->balls[t->object]));
-        t->end = gni_behind(e, d, gni_lowest_of(normal, &d->fronts[t->object].box, d->balls[t->object]));
+        t->start = -gni_behind(e, d, gni_lowest_seen(down, d, t->object));
+        t->end = gni_behind(e, d, gni_lowest_seen(normal, d, t->object));
     }
     sort_touched(d->touched, e->touched);
     for (uint32_t i = 0; i < e->touched; i++) {

@@ -78,7 +78,8 @@ static int ball_misses(const double caster[4], const double light[4], const doub
 static int is_touched(const gni_draft *d, uint32_t caster, const gni_hull *volume, uint32_t other)
 {
     return !ball_misses(d->balls[caster], d->bounds.light, d->balls[other]) &&
-           !gni_volume_misses(volume, d->bounds.light, &d->fronts[other].box);
+           !gni_volume_misses(volume, d->bounds.light, &d->fronts[other].box) &&
+           !gni_volume_misses(volume, d->bounds.light, &d->boxes[other]);
 }
 
 /* Whether the caster's volume need not cover the object: it is a patch, and the caster spares or fans it. */
