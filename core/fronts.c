@@ -20,7 +20,7 @@ static int shows_fronts_alone(const gni_draft *d, uint32_t index)
 
     if (!(object->flags & GN_RECEIVES) || !(object->flags & GN_DRAWN) || d->choice.method != GN_METHOD_STENCIL ||
         s->camera.orthographic || d->region || s->without & GN_MEASURE_INTERVALS || info->part_count == 0 ||
-        info->outward_part_count != info->part_count)
+        info->outward_part_count != info->part_count || object->mesh->group_of) /* groups face the eye together */
         return 0;
     for (int i = 0; i < 8; i++)
         if (!(-box->points[i][2] > s->camera.znear * (1.0 + GNI_MARGIN)))
