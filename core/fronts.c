@@ -116,6 +116,12 @@ double gni_lowest_seen(const double normal[3], const gni_draft *d, uint32_t obje
 
 void gni_find_fronts(gni_draft *d)
 {
+    unsigned flags = 0;
+
+    for (uint32_t i = 0; i < d->scene->object_count; i++)
+        flags |= d->scene->objects[i].flags;
+    if (!(flags & GN_CASTS))
+        return; /* nobody asks */
     for (uint32_t i = 0; i < d->scene->object_count; i++) {
         gni_fronts *f = &d->fronts[i];
 

@@ -12,6 +12,7 @@ enum { TRIALS = 250, POINTS = 60, OBJECTS = 6 };
 
 static uint32_t rng = 31;
 static pile_mesh lump;
+static gn_mesh *welded; /* the same, its edges welded by angle */
 
 typedef struct world {
     gn_scene scene;
@@ -47,7 +48,7 @@ static void make_world(world *w)
         for (int k = 0; k < 4; k++)
             q[k] = test_uniform(&rng, -1, 1);
         gn_mat4_from_trs(w->objects[i].model, place, q, scale);
-        w->objects[i].mesh = lump.mesh;
+        w->objects[i].mesh = test_random(&rng) % 3 ? lump.mesh : welded;
         w->objects[i].flags = GN_RECEIVES | GN_DRAWN | (test_random(&rng) % 2 ? GN_DRAWN_BACKS : 0u) |
                               (test_random(&rng) % 6 ? GN_CASTS : 0u);
     }
@@ -251,11 +252,21 @@ static void intervals_are_closed(void **state)
 
 static int open_all(void **state)
 {
-    return test_open_context(state) || !pile_make_lump(&lump, test_context, 9, 8);
+    gn_mesh_desc desc = {0};
+
+    if (test_open_context(state) || !pile_make_lump(&lump, test_context, 9, 8))
+        return 1;
+    desc.positions = lump.positions;
+    desc.vertex_count = lump.vertex_count;
+    desc.indices = lump.indices;
+    desc.triangle_count = lump.triangle_count;
+    desc.weld_angle = 0.9;
+    return gn_mesh_create(test_context, &desc, &welded) != GN_OK;
 }
 
 static int close_all(void **state)
 {
+    gn_mesh_destroy(welded);
     pile_drop(&lump);
     return test_close_context(state);
 }
