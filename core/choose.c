@@ -84,7 +84,7 @@ gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
 
     memset(choice, 0, sizeof *choice);
     gni_start_text(&choice->text, choice->reason, sizeof choice->reason);
-    if ((unsigned)s->method >= GN_METHOD_COUNT)
+    if ((unsigned)s->method >= GN_METHOD_TOTAL)
         return gn_fail(context, GN_E_ARG, "plan: no method has number %d", (int)s->method);
     choice->method = s->method == GN_METHOD_AUTO ? GN_METHOD_STENCIL : s->method;
     gni_put(&choice->text, s->method == GN_METHOD_AUTO ? "exact for any view" : "asked for by name");

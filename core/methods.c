@@ -13,7 +13,7 @@ static const char one_sided_suffix[] = "/one-sided";
 static const struct {
     gn_method_info info;
     const char *one_sided_name; /* NULL: it does not count in a stencil */
-} methods[GN_METHOD_COUNT] = {
+} methods[GN_METHOD_TOTAL] = {
     {{"auto", "the best exact method that the target can do", 0, 0, 1}, NULL},
     {{"zfail", "stencil, every caster by z-fail, closed volumes, to 255 layers (Everitt 2002)", STENCIL_NEEDS,
       STENCIL_LIKES, 1},
@@ -28,7 +28,7 @@ static const struct {
 
 const gn_method_info *gn_method_describe(gn_method method)
 {
-    return (unsigned)method < GN_METHOD_COUNT ? &methods[method].info : NULL;
+    return (unsigned)method < GN_METHOD_TOTAL ? &methods[method].info : NULL;
 }
 
 gn_method gn_method_by_name(const char *name, int *one_sided)
@@ -36,15 +36,15 @@ gn_method gn_method_by_name(const char *name, int *one_sided)
     const char *const suffix = name ? strstr(name, one_sided_suffix) : NULL;
 
     if (!one_sided)
-        return GN_METHOD_COUNT;
+        return GN_METHOD_TOTAL;
     *one_sided = suffix && strcmp(suffix, one_sided_suffix) == 0;
-    for (int m = 0; m < GN_METHOD_COUNT; m++) {
+    for (int m = 0; m < GN_METHOD_TOTAL; m++) {
         const char *const full = *one_sided ? methods[m].one_sided_name : methods[m].info.name;
 
         if (name && full && strcmp(full, name) == 0)
             return (gn_method)m;
     }
-    return GN_METHOD_COUNT;
+    return GN_METHOD_TOTAL;
 }
 
 const char *gn_plan_method_name(const gn_plan *plan, uint32_t light)

@@ -29,7 +29,7 @@ int command_methods(int count, char **arguments)
         say("methods: takes no arguments (%s)", arguments[0]);
         return EXIT_USAGE;
     }
-    for (int m = 0; m < GN_METHOD_COUNT; m++) {
+    for (int m = 0; m < GN_METHOD_TOTAL; m++) {
         const gn_method_info *info = gn_method_describe((gn_method)m);
 
         printf("%-8s %-8s %s\n", info->name, info->exact ? "exact" : "inexact", info->summary);

@@ -116,7 +116,7 @@ static cJSON *describe(platform *p, gn_context *context, const gn_gles *gles, co
         continue;
     add_capabilities(o, gles, t);
     methods = cJSON_AddObjectToObject(o, "methods");
-    for (int m = GN_METHOD_AUTO + 1; m < GN_METHOD_COUNT; m++)
+    for (int m = GN_METHOD_AUTO + 1; m < GN_METHOD_TOTAL; m++)
         add_method(methods, context, (gn_method)m, t);
     return o;
 }

@@ -410,7 +410,7 @@ int command_render(int count, char **arguments)
         return EXIT_USAGE;
     }
     j.method = gn_method_by_name(j.method_name, &j.one_sided);
-    if (j.method == GN_METHOD_COUNT) {
+    if (j.method == GN_METHOD_TOTAL) {
         say("--method: no method has that name: see `gnomon methods` (%s)", j.method_name);
         return EXIT_USAGE;
     }

@@ -281,7 +281,7 @@ static void bad_scenes_are_refused(void **state)
     REFUSED(GN_E_ARG, "finite far");
     f.scene.target.height = 0;
     REFUSED(GN_E_ARG, "64x0");
-    f.scene.method = GN_METHOD_COUNT;
+    f.scene.method = GN_METHOD_TOTAL;
     REFUSED(GN_E_ARG, "no method");
     f.objects[0].model[5] = 0; /* flattened onto the floor: it casts all the same, by the lit one of its two sheets */
     assert_int_equal(gn_plan_make(test_context, &f.scene, memory, 1 << 20, &plan), GN_OK);
