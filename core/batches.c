@@ -17,6 +17,8 @@
 
 #include <string.h>
 
+#define ROOM_FOR_RING 16 /* triangles: of fewer the ring is as many again */
+
 size_t gni_most_pieces(const gn_mesh *mesh, size_t ends, uint32_t limit)
 {
     const size_t triangles = mesh->info.triangle_count;
@@ -31,14 +33,16 @@ void gni_end_batch(gni_draft *d, int more_follows)
     gn_step *step;
 
     if (d->plan->record_count == d->first_of_batch)
-        return;
+        return; /* nothing since the last */
     gni_add_step(d, GN_STEP_VOLUMES, GN_DRAW_NOTHING, d->light, 0);
     step = &d->steps[d->plan->step_count - 1];
     step->first_record = d->first_of_batch;
     step->record_count = d->plan->record_count - d->first_of_batch;
     d->first_of_batch = d->plan->record_count;
     d->lights[d->light].batches++;
-    if (more_follows)
+    if (d->is_colored)
+        gni_fold_color(d, more_follows);
+    else if (more_follows)
         gni_add_step(d, GN_STEP_FOLD, GN_DRAW_NOTHING, d->light, 0);
 }
 
@@ -52,6 +56,7 @@ typedef struct cutter {
     uint32_t limit;
     uint32_t to_do;       /* triangles that are in no piece yet */
     uint32_t indices_end; /* of the caster's room in d->indices */
+    int spare;            /* pieces more than need be */
 } cutter;
 
 /* d->piece holds the casting of these triangles, and 0 for all others. */
@@ -67,23 +72,32 @@ static void unmark(const cutter *c, const uint32_t *list, uint32_t count)
         c->d->piece.of[list[i]] = 0;
 }
 
-/* Layers of the marked triangles of list[count], into the grid of the piece at hand. */
+/* Layers of the marked triangles of list[count], into the grid of the piece at hand; of a count in colour their
+ * fragments. */
 static uint32_t measure(const cutter *c, const uint32_t *list, uint32_t count)
 {
     gni_layers *l = c->d->layers;
 
+    if (c->d->is_colored)
+        return gni_most_fragments(c->d, c->volume, &c->d->piece);
     return gni_measure_triangles(&l->cells, &l->piece, &l->scratch, c->mesh, c->model_view, c->d->piece.of, list,
                                  count);
 }
 
 /* The marked piece, which was measured last, into this batch or the next. */
-static void emit(const cutter *c)
+static void emit(const cutter *c, uint32_t measured)
 {
     gni_draft *d = c->d;
     gni_layers *l = d->layers;
     gn_plan_light *about = &d->lights[d->light];
     uint32_t most;
 
+    gni_find_bits(c->mesh, &d->piece);
+    if (d->is_colored) {
+        gni_make_room(d, c->volume->extent->scissor, measured);
+        gni_add_records(d, c->volume, 1, &d->piece);
+        return;
+    }
     if (gni_most_layers(&l->cells, &l->batch, &l->piece) > c->limit) {
         gni_end_batch(d, 1);
         memset(&l->batch, 0, sizeof l->batch);
@@ -91,7 +105,6 @@ static void emit(const cutter *c)
     gni_add_grid(&l->cells, &l->batch, &l->piece);
     most = gni_most_layers(&l->cells, &l->batch, NULL);
     about->layers = about->layers > most ? about->layers : most;
-    gni_find_bits(c->mesh, &d->piece);
     gni_add_records(d, c->volume, 1, &d->piece);
 }
 
@@ -121,29 +134,43 @@ static uint32_t add_ring(const cutter *c, const uint32_t *list, uint32_t count, 
     return total;
 }
 
+static void cut_through(cutter *c, const uint32_t *list, uint32_t count);
+
+static void cut_in_halves(cutter *c, const uint32_t *list, uint32_t count)
+{
+    unmark(c, list, count);
+    cut_through(c, list, count / 2);
+    cut_through(c, list + count / 2, count - count / 2);
+}
+
 /* A chain that is too much by itself: halves, until each is not; with its ring where that keeps within the limit and
- * the room. */
+ * the room. Fragments are measured loosely: there a smaller piece makes room for its ring. */
 static void cut_through(cutter *c, const uint32_t *list, uint32_t count)
 {
     gni_draft *d = c->d;
-    uint32_t total;
+    uint32_t total, measured;
 
     mark(c, list, count);
-    if (measure(c, list, count) > c->limit) {
-        unmark(c, list, count);
-        cut_through(c, list, count / 2);
-        cut_through(c, list + count / 2, count - count / 2);
+    if (measure(c, list, count) > c->limit && count > 1) {
+        cut_in_halves(c, list, count);
         return;
     }
     total = add_ring(c, list, count, d->ring);
+    measured = measure(c, d->ring, total);
+    if (measured > c->limit && c->spare > 0 && count > ROOM_FOR_RING) {
+        c->spare--;
+        unmark(c, d->ring + count, total - count);
+        cut_in_halves(c, list, count);
+        return;
+    }
     c->to_do -= count;
     if (GNI_MOST_INDICES * ((uint64_t)total + c->to_do) > c->indices_end - d->plan->index_count ||
-        measure(c, d->ring, total) > c->limit) {
+        measured > c->limit) {
         unmark(c, d->ring + count, total - count);
         total = count;
-        measure(c, list, count);
+        measured = measure(c, list, count);
     }
-    emit(c);
+    emit(c, measured);
     unmark(c, d->ring, total);
 }
 
@@ -271,8 +298,7 @@ static void add_chains(cutter *c, uint32_t count)
             continue;
         }
         mark(c, d->order + from, to - from);
-        measure(c, d->order + from, to - from);
-        emit(c);
+        emit(c, measure(c, d->order + from, to - from));
         unmark(c, d->order + from, to - from);
         c->to_do -= to - from;
     }
@@ -281,16 +307,22 @@ static void add_chains(cutter *c, uint32_t count)
 void gni_add_batched(gni_draft *d, const gni_volume *volume, const gni_casting *casting)
 {
     const gn_object *object = &d->scene->objects[volume->object];
-    cutter c = {d, volume, object->mesh, casting->of, {0}, (uint32_t)d->lights[d->light].stencil.high, 0, 0};
+    const gn_plan_light *about = &d->lights[d->light];
+    cutter c = {d,           volume, object->mesh,
+                casting->of, {0},    (uint32_t)(d->is_colored ? about->color.limit : about->stencil.high),
+                0,           0,      d->is_colored ? GNI_SPARE_PIECES : 0};
+    uint32_t measured;
 
     gni_model_view(c.model_view, &d->scene->camera, object->model, object->mesh->info.centre);
     memset(d->piece.of, 0, object->mesh->info.triangle_count);
     c.to_do = sort_chains(&c);
     c.indices_end = d->plan->index_count + GNI_MOST_INDICES * c.to_do;
     mark(&c, d->order, c.to_do);
-    if (measure(&c, d->order, c.to_do) <= c.limit) {
-        emit(&c);
+    measured = measure(&c, d->order, c.to_do);
+    if (measured <= c.limit) {
+        emit(&c, measured);
     } else {
+        d->lights[d->light].cut_casters++;
         unmark(&c, d->order, c.to_do);
         add_chains(&c, c.to_do);
     }

@@ -77,24 +77,80 @@ static void choose_far(const gn_scene *s, gni_choice *choice)
                 gni_why_not(&s->target, GN_CAN_W0));
 }
 
+/* Whether a method that is asked for by name, or in the chain, can run here; if not, why. */
+static int is_possible(const gn_scene *s, gn_method method, gni_text *why)
+{
+    const gn_target *t = &s->target;
+    const gn_method_info *info = gn_method_describe(method);
+
+    for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
+        if (info->needs >> c & 1 && !gn_target_can(t, (gn_capability)c)) {
+            gni_put(why, "%s needs %s, which %s", info->name, gn_capability_name((gn_capability)c),
+                    gni_why_not(t, (gn_capability)c));
+            return 0;
+        }
+    return !gni_counts_in_color(method) || gni_color_is_possible(s, method, why);
+}
+
+/* From the best to what needs least. */
+static const gn_method chain[] = {GN_METHOD_STENCIL, GN_METHOD_COUNT, GN_METHOD_SIGNED, GN_METHOD_ALPHA,
+                                  GN_METHOD_SCREEN};
+
+/* The first of the chain that is possible, or GN_METHOD_AUTO; the reason is why the one before was not. */
+static gn_method pick(const gn_scene *s, gni_text *reason, gni_text *first_why)
+{
+    char last[128] = "";
+
+    for (size_t i = 0; i < sizeof chain / sizeof chain[0]; i++) {
+        char text[128];
+        gni_text why;
+
+        gni_start_text(&why, text, sizeof text);
+        if (is_possible(s, chain[i], &why)) {
+            gni_put(reason, i ? "the best that is possible here: %s" : "exact for any view", last);
+            return chain[i];
+        }
+        if (i == 0)
+            gni_put(first_why, "%s", text);
+        memcpy(last, text, sizeof last);
+    }
+    return GN_METHOD_AUTO;
+}
+
+gn_method gni_pick(const gn_scene *s)
+{
+    gni_text nothing;
+
+    gni_start_text(&nothing, NULL, 0);
+    return s->method == GN_METHOD_AUTO ? pick(s, &nothing, &nothing) : s->method;
+}
+
 gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
 {
     const gn_target *t = &s->target;
-    const gn_method_info *info;
+    char text[128] = "";
+    gni_text why;
 
     memset(choice, 0, sizeof *choice);
     gni_start_text(&choice->text, choice->reason, sizeof choice->reason);
+    gni_start_text(&why, text, sizeof text);
     if ((unsigned)s->method >= GN_METHOD_TOTAL)
         return gn_fail(context, GN_E_ARG, "plan: no method has number %d", (int)s->method);
-    choice->method = s->method == GN_METHOD_AUTO ? GN_METHOD_STENCIL : s->method;
-    gni_put(&choice->text, s->method == GN_METHOD_AUTO ? "exact for any view" : "asked for by name");
-    info = gn_method_describe(choice->method);
-    for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
-        if (info->needs >> c & 1 && !gn_target_can(t, (gn_capability)c))
-            return gn_fail(context, GN_E_DEVICE, "method %s needs %s, which %s (%d bits of stencil, %d of depth)",
-                           info->name, gn_capability_name((gn_capability)c), gni_why_not(t, (gn_capability)c),
-                           t->stencil_bits, t->depth_bits);
-    choose_layout(s, choice);
+    if (s->method == GN_METHOD_AUTO) {
+        choice->method = pick(s, &choice->text, &why);
+    } else if (is_possible(s, s->method, &why)) {
+        choice->method = s->method;
+        gni_put(&choice->text, "asked for by name");
+    }
+    if (choice->method == GN_METHOD_AUTO)
+        return gn_fail(context, GN_E_DEVICE, "method %s%s (%d bits of stencil, %d of alpha, %d of depth)", text,
+                       s->method == GN_METHOD_AUTO ? ", and none without a stencil is possible either" : "",
+                       t->stencil_bits, t->alpha_bits, t->depth_bits);
+    if (gni_counts_in_color(choice->method))
+        gni_choose_color(s, choice);
+    else
+        choose_layout(s, choice);
+    gni_choose_masks(s, choice);
     choose_far(s, choice);
     return GN_OK;
 }

@@ -47,6 +47,24 @@ static void say_bounds(gni_text *s, const gn_plan *plan, const gn_plan_light *l)
         gni_put(s, "; depth bounds %.6f to %.6f", l->depth_bounds[0], l->depth_bounds[1]);
 }
 
+/* How a count in colour is made, and what it keeps. */
+static void say_color(gni_text *s, const gn_plan *plan, const gn_plan_light *l)
+{
+    static const char *const places[] = {"", "the target's alpha", "the target's colour", "an image"};
+
+    gni_put(s, "; counted in %s of levels 0 to %d", places[l->color.place], l->color.top);
+    if (l->batches)
+        gni_put(s, "; up to %lu fragments of one side over a pixel, %d are kept", (unsigned long)l->fragments,
+                l->color.limit);
+    if (l->batches > 1)
+        gni_put(s, "; %lu batches", (unsigned long)l->batches);
+    if (plan->image.format != GN_FORMAT_NONE)
+        gni_put(s, "; the image has %s of depth",
+                plan->image.depth_bits == 0    ? "the target's own buffer"
+                : plan->image.depth_bits == 16 ? "16 bits"
+                                               : "24 bits");
+}
+
 size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, size_t capacity)
 {
     const gn_plan_light *l;
@@ -64,9 +82,14 @@ size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, si
     }
     say_bounds(&s, plan, l);
     gni_put(&s, "; %lu casters, %lu left out", (unsigned long)l->casters, (unsigned long)l->skipped_casters);
-    if (l->batches > 1)
+    if (l->color.place != GN_PLACE_STENCIL)
+        say_color(&s, plan, l);
+    else if (l->batches > 1)
         gni_put(&s, "; more layers than %d bits count: %lu batches of up to %lu layers, folded into a flag",
                 l->stencil.bits + 1, (unsigned long)l->batches, (unsigned long)l->layers);
+    if (l->cut_casters)
+        gni_put(&s, "; %lu casters cut into pieces: at their seams single pixels may be wrong",
+                (unsigned long)l->cut_casters);
     if (l->caster_error > 0.0)
         gni_put(&s, "; proxies or welded edges: a shadow's edge may be off by up to %g where it starts",
                 l->caster_error);
@@ -99,7 +122,7 @@ size_t gn_plan_explain_caster(const gn_plan *plan, uint32_t light, uint32_t obje
     }
     if (c->mcguire_case == 0)
         gni_put(&s, "no volume: only flat receivers are in its shadow");
-    else if (plan->lights[light].method == GN_METHOD_STENCIL)
+    else if (gni_models_less(plan->lights[light].method))
         gni_put(&s, "%s", cases[c->mcguire_case - 1]);
     else
         gni_put(&s, "by %s, as all", c->mcguire_case == 1 ? "z-pass" : "z-fail");
@@ -140,13 +163,24 @@ size_t gn_plan_explain_warning(const gn_plan *plan, gn_warning warning, char *te
             (unsigned long)plan->endless_casters);
         break;
     case GN_WARN_DEPTH:
-        gni_put(
-            &s,
-            "from a view distance of %g on four steps of %d bits of depth are larger than a pixel, and receivers are "
-            "up to "
-            "%g "
-            "away: edges of shadows may stray there; a near plane farther out than %g helps",
-            plan->depth_limit, plan->target.depth_bits, plan->deepest_receiver, plan->depth_range[0]);
+        gni_put(&s,
+                "from a view distance of %g on four steps of %d bits of depth are larger than half a pixel, and "
+                "receivers are "
+                "up to "
+                "%g "
+                "away: edges of shadows may stray there; a near plane farther out than %g helps",
+                plan->depth_limit, plan->target.depth_bits, plan->deepest_receiver, plan->depth_range[0]);
+        break;
+    case GN_WARN_RANGE:
+        for (uint32_t i = 0; i < plan->light_count; i++)
+            if (plan->lights[i].fragments > (uint32_t)plan->lights[i].color.limit && plan->lights[i].color.limit) {
+                gni_put(&s,
+                        "light %lu: up to %lu fragments of one side may lie over a pixel, and %s tells %d apart: "
+                        "shadows may be wrong there",
+                        (unsigned long)i, (unsigned long)plan->lights[i].fragments, gn_plan_method_name(plan, i),
+                        plan->lights[i].color.limit);
+                break;
+            }
         break;
     case GN_WARN_FLOAT:
         gni_put(

@@ -18,7 +18,7 @@ static int shows_fronts_alone(const gni_draft *d, uint32_t index)
     const gn_mesh_info *info = &object->mesh->info;
     const gni_hull *box = &d->boxes[index];
 
-    if (!(object->flags & GN_RECEIVES) || !(object->flags & GN_DRAWN) || d->choice.method != GN_METHOD_STENCIL ||
+    if (!(object->flags & GN_RECEIVES) || !(object->flags & GN_DRAWN) || !gni_models_less(d->choice.method) ||
         s->camera.orthographic || d->region || s->without & GN_MEASURE_INTERVALS || info->part_count == 0 ||
         info->outward_part_count != info->part_count || object->mesh->group_of) /* groups face the eye together */
         return 0;

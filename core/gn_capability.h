@@ -23,7 +23,7 @@ extern "C" {
     F(GN_CAN_ALPHA, "alpha", "alpha in the target, kept, and a factor of blending")                                    \
     F(GN_CAN_BLEND_SUBTRACT, "blend-subtract", "adding and REVERSE_SUBTRACT by single steps")                          \
     F(GN_CAN_BLEND_MINMAX, "blend-minmax", "MIN and MAX")                                                              \
-    F(GN_CAN_BLEND_ROUNDING, "blend-rounding", "doubling is exact and halving rounds down")                            \
+    F(GN_CAN_BLEND_ROUNDING, "blend-rounding", "full, halved as often as there are bits, doubles back")                \
     F(GN_CAN_FRONT_FACING, "front-facing", "gl_FrontFacing")                                                           \
     F(GN_CAN_FBO_RGBA8, "fbo-rgba8", "framebuffer objects of 8, 8, 8, 8 bits")                                         \
     F(GN_CAN_FBO_RGBA4, "fbo-rgba4", "framebuffer objects of 4, 4, 4, 4 bits")                                         \

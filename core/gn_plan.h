@@ -15,6 +15,11 @@ typedef enum gn_method {
     GN_METHOD_ZFAIL, /* stencil, closed volumes, counted behind what is seen (Everitt 2002) */
     GN_METHOD_ZPASS, /* stencil, counted before what is seen: wrong where a volume meets the near plane (Hoxley 2003) */
     GN_METHOD_STENCIL, /* stencil, before or behind what is seen for each caster, by the occlusion pyramid (McGuire 2003) */
+    /* Without a stencil. Fronts and backs are counted in two channels of an image of the library's own. */
+    GN_METHOD_COUNT,
+    GN_METHOD_SIGNED, /* added and subtracted about a level, in the target's alpha or in an image */
+    GN_METHOD_ALPHA,  /* halved and doubled in the target's alpha (Roettger 2002) */
+    GN_METHOD_SCREEN, /* the same in its colour, which is copied before the scene's own is drawn (Roettger 2002) */
     GN_METHOD_TOTAL
 } gn_method;
 
@@ -22,6 +27,7 @@ typedef struct gn_method_info {
     const char *name;    /* what --method takes */
     const char *summary; /* one line */
     uint32_t needs;      /* capabilities that it cannot do without */
+    uint32_t needs_any;  /* and one of these, if there are any */
     uint32_t likes;      /* and those that it does with less, or more slowly, without */
     int exact;
 } gn_method_info;
@@ -47,6 +53,46 @@ typedef struct gn_stencil_layout {
     int mask;       /* of count and flag */
 } gn_stencil_layout;
 
+/* How a light's mask limits the host's drawing. */
+typedef enum gn_mask {
+    GN_MASK_STENCIL, /* by the stencil test */
+    GN_MASK_ALPHA,   /* by the target's alpha, a factor of blending */
+    GN_MASK_TEXTURE  /* by a texture that the host's shader reads (GN_GLSL_MASK in gnomon_gles.h), a light in each
+                        channel */
+} gn_mask;
+
+#define GN_MOST_MASKED 4 /* lights of one pass, one in each channel of a mask */
+
+/* What a colour buffer of the library's own holds: bits of red, green, blue and alpha. */
+typedef enum gn_format {
+    GN_FORMAT_NONE,
+    GN_FORMAT_RGBA8,
+    GN_FORMAT_RGBA4,
+    GN_FORMAT_RGB5A1,
+    GN_FORMAT_RGB565
+} gn_format;
+
+/* Where volumes are counted. */
+typedef enum gn_place {
+    GN_PLACE_STENCIL, /* of the target, or of the image when the plan has one */
+    GN_PLACE_ALPHA,   /* of the target */
+    GN_PLACE_COLOR,   /* of the target, before the scene's is drawn */
+    GN_PLACE_IMAGE    /* the plan's image */
+} gn_place;
+
+/* Of a count in colour (DESIGN.md, decision 11). A level is a whole number from 0 to `top`; a pixel is lit where the
+ * count is `start` again, or by count where both channels are the same. */
+typedef struct gn_color_layout {
+    gn_place place;
+    int both_sides; /* 1: one draw counts fronts and backs, told by gl_FrontFacing. 0: what counts up first, then the rest */
+    int discard;       /* then the other side is discarded by gl_FrontFacing; 0: culled, which may lose slivers */
+    int top, start;    /* the greatest level; that of a pixel which no volume holds */
+    int other_top;     /* count: of green, where backs or fronts are; 0: there is one channel */
+    int limit;         /* the most that is surely kept at a pixel: fragments of either side, or the sum on the way */
+    unsigned channels; /* that are written: red 1, green 2, blue 4, alpha 8 */
+    int by_maximum; /* a shadow's level becomes the shade by MAX, and no fold is needed before (Roettger 2002, 4.4) */
+} gn_color_layout;
+
 /* How the far end of a volume survives clipping at the far plane. */
 typedef enum gn_far {
     GN_FAR_INFINITE, /* at infinity, w = 0, under a projection that ends there too */
@@ -61,12 +107,21 @@ enum {
     GN_MEASURE_SCISSORS = 2, /* and are counted only where such things are seen */
     GN_MEASURE_PATCHES = 4,  /* on flat receivers projections are counted, and volumes reach the others only */
     /* ended volumes are left out between the things that they may shadow, of which only what is seen counts */
-    GN_MEASURE_INTERVALS = 8
+    GN_MEASURE_INTERVALS = 8,
+    /* three lights and more are added in one pass, if the host reads masks, under stencils taken to a texture */
+    GN_MEASURE_MASKS = 16
 };
 
 #define GN_MOST_PATCHES 3 /* planes whose flat receivers need no volumes; two bits of stencil name them */
 
 /* ---- Plan: what will be drawn, as data, decided before any GL call ---- */
+
+/* What shadows do to a frame (Roettger 2002, section 4.3). */
+typedef enum gn_shade {
+    GN_SHADE_ADDITIVE,  /* lights are added to ambient where they reach */
+    GN_SHADE_ATTENUATE, /* a fully lit frame is dimmed in each light's shadow */
+    GN_SHADE_BLACK      /* and there is set to black */
+} gn_shade;
 
 typedef struct gn_scene {
     gn_camera camera;
@@ -85,6 +140,14 @@ typedef struct gn_scene {
      * colors and attenuations must be given; gn_plan_light.possible_error says what may be missing [0: none is left
      * out] */
     double least_light;
+    int reads_masks;          /* 1: the host's light passes read masks from a texture. Some methods make no other */
+    uint32_t lights_per_pass; /* that they add at once then, at most GN_MOST_MASKED [as many] */
+    /* 1: lights under stencils are added in passes of several too, by masks in textures, where the target can. 0: where
+     * the plan finds that cheaper */
+    int merges_lights;
+    gn_shade shade;
+    double dimmed; /* GN_SHADE_ATTENUATE: what a shadow leaves of the light, more than 0, less than 1 [0.5] */
+    int discards;  /* 1: the host reads neither depth nor stencil of the target after the frame: they may be dropped */
     gn_shadow_cache *cache; /* borrowed while the plan lives; one plan at a time [NULL: none] */
     unsigned without;       /* to measure them: a set of gn_measure that the method stencil does without */
 } gn_scene;
@@ -118,30 +181,66 @@ typedef struct gn_record {
 } gn_record;
 
 typedef enum gn_step_kind {
-    GN_STEP_CLEAR,   /* colour, depth and stencil, unmasked; the stencil to the reference of light 0 */
-    GN_STEP_ZERO,    /* the stencil becomes the reference of `light` again, by a quad in its scissor */
-    GN_STEP_VOLUMES, /* records are counted into the stencil */
+    GN_STEP_CLEAR,   /* colour and depth, unmasked; and the stencil, to the reference of light 0, if it counts there */
+    GN_STEP_ZERO,    /* the count becomes that of a pixel which no volume of `light` holds, by a quad in its scissor */
+    GN_STEP_VOLUMES, /* records are counted */
     GN_STEP_DRAW,    /* the host's: see gn_draw */
     GN_STEP_FOLD,    /* where the count is not nought it becomes nought and the flag is set, by a quad in the scissor */
     GN_STEP_MARK,    /* patches are named in the stencil of the pixels where they are seen */
-    GN_STEP_DARKEN   /* all of `patch` that is in the light's scissor is shadow: its seen side looks away */
+    GN_STEP_DARKEN,  /* all of `patch` that is in the light's scissor is shadow: its seen side looks away */
+    GN_STEP_CLEAR_IMAGE, /* the image: its count to `start`, depth and stencil unless it borrows the target's depth */
+    GN_STEP_CLEAR_MASK,  /* all of a mask texture is lit */
+    GN_STEP_CLEAR_COLOR, /* the target's colour alone */
+    GN_STEP_RESOLVE,     /* the light's channel of its mask texture becomes 0 where the image's count says shadow */
+    GN_STEP_NORMALISE, /* levels in the target become full where lit and 0 in shadow, or the shade (by_maximum), by quads */
+    GN_STEP_COPY,      /* the target's colour becomes the mask texture */
+    GN_STEP_SHADE,     /* the frame is dimmed in the shadows of `lights` */
+    GN_STEP_OPAQUE,  /* the target's alpha becomes 1, in the light's scissor; with no light everywhere */
+    GN_STEP_DISCARD, /* what is left of depth and stencil is not needed: of the image, or of the target */
+    GN_STEP_KIND_COUNT
 } gn_step_kind;
 
 typedef enum gn_draw {
     GN_DRAW_NOTHING, /* the step is the library's own */
     GN_DRAW_AMBIENT, /* every opaque object: depth and ambient light together */
-    GN_DRAW_LIGHT,   /* objects that receive (or those that do not), added, under the mask of `light` */
-    GN_DRAW_FINAL    /* transparent things and labels: McGuire's last pass */
+    GN_DRAW_LIGHT,   /* objects that receive (or those that do not), added, under the mask of `lights` */
+    GN_DRAW_FINAL,   /* transparent things and labels: McGuire's last pass */
+    GN_DRAW_DEPTH,   /* every opaque object, depth alone: no colour is written. Into whatever is bound */
+    GN_DRAW_LIT,     /* every opaque object, depth and all light, as if nothing cast: GN_SHADE_ATTENUATE and BLACK */
+    GN_DRAW_COUNT
 } gn_draw;
+
+/* What a step draws into. */
+typedef enum gn_into { GN_INTO_TARGET, GN_INTO_IMAGE, GN_INTO_MASK } gn_into;
 
 typedef struct gn_step {
     gn_step_kind kind;
     gn_draw draw;
-    uint32_t light; /* index into the scene's lights, where it matters */
+    gn_into into;
+    uint32_t light; /* index into the scene's lights, where it matters; GN_NO_LIGHT: none */
     int receivers;  /* GN_DRAW_LIGHT: 1 draw what receives, under the mask; 0 draw the rest, unmasked */
     uint32_t first_record, record_count; /* GN_STEP_VOLUMES */
     uint32_t patch;                      /* GN_STEP_DARKEN */
+    uint32_t mask;                       /* of the plan's mask textures: which */
+    /* GN_DRAW_LIGHT, GN_STEP_SHADE: lights that are added at once, mostly one. The mask of lights[i] is in the channel
+     * of its gn_plan_light.mask_channel, which with a texture is i. */
+    uint32_t lights[GN_MOST_MASKED], light_count;
 } gn_step;
+
+#define GN_NO_LIGHT UINT32_MAX
+
+/* An image that counts are made in, of the target's size. */
+typedef struct gn_image {
+    gn_format format; /* GN_FORMAT_NONE: there is none. With a stencil its colour is the mask itself */
+    int depth_bits;   /* of its own depth; 0: it borrows the target's */
+    int stencil_bits;
+} gn_image;
+
+/* Bytes a frame writes and reads, estimated: each surface covers the target once, each record its scissor once a side. */
+typedef struct gn_traffic {
+    double target_color, target_depth, image_color, image_depth, masks; /* written and read */
+    double written, read;                                               /* of all */
+} gn_traffic;
 
 /* Why something is not drawn. */
 typedef enum gn_skip {
@@ -161,9 +260,11 @@ typedef enum gn_skip {
 
 typedef struct gn_plan_light {
     gn_method method;
-    char reason[256]; /* why this method, and this way of it: a sentence */
-    gn_skip skip;     /* not GN_SKIP_NOT: there is no step for it */
-    gn_stencil_layout stencil;
+    char reason[256];                    /* why this method, and this way of it: a sentence */
+    gn_skip skip;                        /* not GN_SKIP_NOT: there is no step for it */
+    gn_stencil_layout stencil;           /* of methods that count there */
+    gn_color_layout color;               /* of the others; place is GN_PLACE_STENCIL for the former */
+    uint32_t mask_texture, mask_channel; /* GN_MASK_TEXTURE: where its mask is, unless it is skipped */
     double reach; /* what is farther is not lit, and a little more for rounding; INFINITY: no bound */
     uint32_t
         scissor[4]; /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound; all 0: the
@@ -176,7 +277,11 @@ typedef struct gn_plan_light {
     uint32_t cases[3];     /* of them: McGuire's case 1 (z-pass), 2 (z-fail, no light cap), 3 (z-fail with it) */
     uint32_t skipped_casters; /* that might have cast, and were skipped */
     uint32_t layers;          /* no point is blocked by more casting triangles of one batch than this */
+    uint32_t fragments;       /* counts in colour: of a batch no pixel takes more of one side than this */
     uint32_t batches;         /* in which volumes are counted, folded into the flag between */
+    /* Cut into pieces, as no count holds them whole. Pieces have sides back to back: where a surface meets such a seam
+     * within a few steps of depth, single pixels may be wrong. */
+    uint32_t cut_casters;
 } gn_plan_light;
 
 /* What became of one object in one light. */
@@ -198,12 +303,15 @@ typedef enum gn_warning {
     /* Volumes of orthographic cameras that were left out, because the light is so close to so many large triangles that
      * their ends need too many planes. */
     GN_WARN_ENDLESS,
-    /* From some distance on four steps of depth are larger than a pixel, and something that receives is seen there:
-     * edges of shadows may stray by more than a pixel, and thin things lose theirs. */
+    /* From some distance on four steps of depth are larger than half a pixel, and something that receives is seen there:
+     * edges of shadows may stray by more than half a pixel, and thin things lose theirs. */
     GN_WARN_DEPTH,
     /* Something in view has vertices so far from the plane of the eye, before it or behind, that a float of a vertex
      * shader does not tell their depth from infinity (znear times 2^21): all of such triangles may be too deep. */
     GN_WARN_FLOAT,
+    /* A caster's volume may put more fragments of one side over a pixel than doubling and halving keep apart: shadows
+     * may be wrong there. gn_plan_light.fragments says how many, gn_color_layout.limit how many are kept. */
+    GN_WARN_RANGE,
     GN_WARNING_COUNT
 } gn_warning;
 
@@ -219,7 +327,14 @@ typedef struct gn_plan_object {
  * printed. */
 typedef struct gn_plan {
     gn_target target;
-    int blend_once;     /* as in the scene */
+    int blend_once; /* as in the scene */
+    gn_mask mask;   /* of all lights */
+    gn_shade shade;
+    double dimmed; /* what a shadow leaves, 0 for GN_SHADE_BLACK; not read for GN_SHADE_ADDITIVE */
+    gn_image image;
+    gn_format mask_format;
+    uint32_t mask_count; /* textures */
+    gn_traffic traffic;
     double clear_depth; /* 1, or the depth of zfar */
     /* View distances that depth 0 and 1 stand for. [0] is znear, or up to an eighth less, so that floats tell it from
      * w; [1] is INFINITY for most perspective cameras. */
@@ -245,7 +360,7 @@ typedef struct gn_plan {
     double patches[GN_MOST_PATCHES][4]; /* world: planes, positive where the eye is */
     uint32_t warnings;                  /* set of gn_warning: bit 1u << warning */
     uint32_t endless_casters;           /* left out with GN_WARN_ENDLESS; one is counted for each light */
-    double depth_limit;      /* the view distance from which on four steps of depth are larger than a pixel */
+    double depth_limit;      /* the view distance from which on four steps of depth are larger than half a pixel */
     double farthest_vertex;  /* the greatest distance from the plane of the eye of anything that may be seen */
     double deepest_receiver; /* the view distance of the farthest thing that receives and may be seen */
 } gn_plan;

@@ -243,6 +243,9 @@ double gni_depth_of(const gn_camera *camera, const double range[2], double dista
  * power of two times what was given: no bit is lost. */
 void gni_towards(double out[3], const gn_light *light);
 
+/* plan_light.c: homogeneous, in view space, the eye subtracted first. */
+void gni_light_in_view(const gn_camera *camera, const gn_light *light, double out[4]);
+
 /* extrude.c */
 /* The matrix that moves a point away from the light onto a plane: (plane . light) I - light plane^T. */
 void gni_extrusion(double out[16], const double light[4], const double plane[4]);
@@ -262,14 +265,37 @@ void gni_put(gni_text *t, const char *format, ...)
 #endif
     ;
 
+/* methods.c */
+int gni_models_less(gn_method method); /* leaves out what a scene does not require */
+int gni_counts_in_color(gn_method method);
+int gni_cuts_casters(gn_method method); /* that are too much alone: of those that count in colour */
+
 /* choose.c */
 typedef struct gni_choice {
     gn_method method;
     gn_stencil_layout stencil;
+    gn_color_layout color;
+    gn_mask mask;
+    gn_image image;
+    gn_format mask_format;
+    uint32_t lights_per_mask;
+    double dimmed;    /* what a shadow leaves of a frame that is not GN_SHADE_ADDITIVE */
     char reason[256]; /* as in gn_plan_light */
     gni_text text;    /* into it */
 } gni_choice;
 
+/* choose_color.c: those of methods that count in colour; and for all how masks reach the frame. */
+int gni_color_is_possible(const gn_scene *s, gn_method method, gni_text *why);
+void gni_choose_color(const gn_scene *s, gni_choice *choice);
+void gni_choose_masks(const gn_scene *s, gni_choice *choice);
+/* The same layout in another channel of the target's colour. */
+void gni_choose_channel(const gn_scene *s, gn_color_layout *layout, uint32_t channel);
+int gni_format_bytes(gn_format format); /* of a pixel */
+/* gn_color_layout.limit that a method would have. */
+uint32_t gni_color_limit(const gn_scene *s, gn_method method);
+
+/* What is meant where AUTO is asked for; AUTO when nothing is possible. */
+gn_method gni_pick(const gn_scene *scene);
 /* Counts of wrapping bits, and above them as many as name a patch. */
 void gni_patch_layout(gn_stencil_layout *layout, uint32_t patch_count);
 /* Counts of one bit less, and a flag above them. */

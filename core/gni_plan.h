@@ -5,6 +5,7 @@
 #include "gni.h"
 
 enum { GNI_IN_CAST = 1, GNI_IN_LIT = 2 }; /* what an object is to a light */
+enum { GNI_DRAWS_RECEIVERS = 1, GNI_DRAWS_OTHERS = 2 };
 
 /* cells.c: cells of light space, and how many layers there are in each at most. */
 #define GNI_PLANE_SIDE 58
@@ -130,6 +131,9 @@ typedef struct gni_outline {
     uint32_t first, count, of_a_side; /* in the plan's indices, or the cache's */
 } gni_outline;
 
+#define GNI_COLUMNS     256 /* fragments.c: of the image */
+#define GNI_COLUMN_WAYS 4
+
 /* A plan while it is made. */
 typedef struct gni_draft {
     gn_context *context;
@@ -165,8 +169,15 @@ typedef struct gni_draft {
     gni_casting piece;  /* of the volume at hand: those of one piece */
     uint32_t *order, *parent, *end, *ring;
     uint32_t *cheap_of;   /* [object_count] layers of each caster of the light at hand, a cheap bound */
-    gni_slot *slot;       /* of the caster at hand in the cache; NULL: it is not kept */
-    int casting_is_known; /* d->casting is the slot's, or there is none */
+    int8_t *seen_caps[2]; /* fragments.c, of methods that count in colour; and so the next two */
+    int32_t *seams[2];    /* [vertices of the largest caster] */
+    int32_t (*columns)[2][GNI_COLUMNS + 1]; /* [GNI_COLUMN_WAYS] */
+    uint32_t *tiles;                        /* [GNI_TILES^2] of the target: fragments of the batch at hand */
+    uint8_t *draws;                         /* [light_count] of GNI_DRAWS_*: what the light adds to */
+    uint32_t mask_count;                    /* lights that have a channel of a mask */
+    int image_is_used;                      /* something was counted in it */
+    gni_slot *slot;                         /* of the caster at hand in the cache; NULL: it is not kept */
+    int casting_is_known;                   /* d->casting is the slot's, or there is none */
     gni_choice choice;
     uint32_t whole[4]; /* the target's pixels */
     double projection[16], view[16];
@@ -176,22 +187,32 @@ typedef struct gni_draft {
     /* the light at hand */
     uint32_t light;
     gni_bounds bounds;
-    gni_view seen; /* through its scissor */
-    int is_batched, uses_patches;
-    uint32_t first_of_batch; /* record */
+    gni_view seen;                            /* through its scissor */
+    int is_batched, uses_patches, is_colored; /* is_colored: its method counts in colour */
+    uint32_t first_of_batch;                  /* record */
     uint64_t casting_count, cheap_layers;
 } gni_draft;
 
 /* plan.c */
-void gni_add_step(gni_draft *d, gn_step_kind kind, gn_draw draw, uint32_t light, int receivers);
+gn_step *gni_add_step(gni_draft *d, gn_step_kind kind, gn_draw draw, uint32_t light, int receivers);
+
+/* plan_passes.c: the frame's steps. */
+gn_result gni_add_passes(gni_draft *d);
+/* The steps before the first light of a mask texture. */
+void gni_start_mask(gni_draft *d);
+
+/* traffic.c */
+void gni_estimate_traffic(gn_plan *plan);
 
 /* plan_check.c: whether all numbers of a scene are such that a plan can be made. */
 gn_result gni_check_scene(gn_context *context, const gn_scene *scene);
 
-/* plan_light.c: steps and records of light d->light. */
+/* plan_light.c: records of a light, and the steps that make its mask. Fills d->draws. */
 gn_result gni_add_light(gni_draft *d, uint32_t light);
-/* Homogeneous, in view space, the eye subtracted first. */
-void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4]);
+
+/* stain.c: a step that zeroes a light's scissor, where the stencil may differ from its reference; and that it may. */
+void gni_clean_stencil(gni_draft *d, uint32_t light);
+void gni_stain_stencil(gni_draft *d, uint32_t light);
 
 void gni_join_rectangles(uint32_t a[4], const uint32_t b[4]);
 void gni_meet_rectangles(uint32_t a[4], const uint32_t b[4]);
@@ -295,6 +316,20 @@ typedef struct gni_volume {
     double end_reach;
     int unpatched; /* as in gn_record */
 } gni_volume;
+
+/* fragments.c: no pixel gets more fragments of one side of a volume than this. */
+uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting);
+
+/* batches_color.c: batches of counts in colour. */
+#define GNI_TILES        16
+#define GNI_SPARE_PIECES 16 /* of a caster that is cut: pieces made smaller for their rings */
+void gni_start_color(gni_draft *d);
+/* A caster's volume, in this batch or in the next, or cut. */
+void gni_add_colored(gni_draft *d, const gni_volume *v, const gni_casting *casting);
+/* Room for so many fragments in the scissor; ends the batch if there is none. */
+void gni_make_room(gni_draft *d, const uint32_t scissor[4], uint32_t fragments);
+/* The steps behind a batch, and before the next if more follows. */
+void gni_fold_color(gni_draft *d, int more_follows);
 
 /* slivers.c: the eye in the space of the volume's mesh, and between which of its heights over a triangle's plane that
  * is drawn in a light cap by z-pass. 0 where all must be drawn. */

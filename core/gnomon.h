@@ -255,6 +255,9 @@ typedef struct gn_target {
     uint32_t width, height;
     int red_bits, green_bits, blue_bits, alpha_bits;
     int depth_bits, stencil_bits;
+    int image_depth_bits;  /* the most that a framebuffer object of the library's own has: 24 or 16; 0: none */
+    uint32_t framebuffer;  /* the GL's name of it */
+    uint32_t shared_depth; /* of a depth renderbuffer that is its depth, and can be another's too; 0: none */
     int samples;
     int mediump_bits;                    /* of mantissa that mediump keeps in fragment shaders; 0: not known */
     uint32_t advertised, proven, hidden; /* sets of gn_capability */

@@ -1,5 +1,5 @@
 /* methods.c - the methods by name: what each is and what it needs of a target. One row a method. */
-#include "gnomon.h"
+#include "gni.h"
 
 #include <string.h>
 
@@ -7,24 +7,53 @@
 
 #define STENCIL_NEEDS (BIT(GN_CAN_STENCIL) | BIT(GN_CAN_DEPTH))
 #define STENCIL_LIKES (BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_STENCIL_WRAP) | BIT(GN_CAN_W0))
+#define IMAGES        (BIT(GN_CAN_FBO_RGBA8) | BIT(GN_CAN_FBO_RGBA4) | BIT(GN_CAN_FBO_RGB5A1) | BIT(GN_CAN_FBO_RGB565))
+#define COLOR_LIKES   (BIT(GN_CAN_FRONT_FACING) | BIT(GN_CAN_W0))
 
 static const char one_sided_suffix[] = "/one-sided";
 
 static const struct {
     gn_method_info info;
-    const char *one_sided_name; /* NULL: it does not count in a stencil */
+    const char *one_sided_name; /* NULL: it counts one side at a time anyway */
 } methods[GN_METHOD_TOTAL] = {
-    {{"auto", "the best exact method that the target can do", 0, 0, 1}, NULL},
-    {{"zfail", "stencil, every caster by z-fail, closed volumes, to 255 layers (Everitt 2002)", STENCIL_NEEDS,
+    {{"auto", "the best exact method that the target can do", 0, 0, 0, 1}, NULL},
+    {{"zfail", "stencil, every caster by z-fail, closed volumes, to 255 layers (Everitt 2002)", STENCIL_NEEDS, 0,
       STENCIL_LIKES, 1},
      "zfail/one-sided"},
     {{"zpass", "stencil, every caster by z-pass; wrong where a volume meets the near plane (Hoxley 2003)",
-      STENCIL_NEEDS, STENCIL_LIKES, 0},
+      STENCIL_NEEDS, 0, STENCIL_LIKES, 0},
      "zpass/one-sided"},
     {{"stencil", "stencil, z-pass or z-fail for each caster, parts out of view left out (McGuire 2003)", STENCIL_NEEDS,
-      STENCIL_LIKES, 1},
+      0, STENCIL_LIKES, 1},
      "stencil/one-sided"},
+    {{"count", "no stencil: fronts and backs counted in two channels of an image", BIT(GN_CAN_DEPTH), IMAGES,
+      COLOR_LIKES, 1},
+     "count/one-sided"},
+    {{"signed", "no stencil: added and subtracted about a level, in alpha or in an image",
+      BIT(GN_CAN_DEPTH) | BIT(GN_CAN_BLEND_SUBTRACT), BIT(GN_CAN_ALPHA) | IMAGES, COLOR_LIKES, 1},
+     NULL},
+    {{"alpha", "no stencil: halved and doubled in the target's alpha, while nesting is shallow (Roettger 2002)",
+      BIT(GN_CAN_DEPTH) | BIT(GN_CAN_ALPHA) | BIT(GN_CAN_BLEND_ROUNDING), 0, COLOR_LIKES | BIT(GN_CAN_BLEND_MINMAX), 1},
+     NULL},
+    {{"screen", "no stencil, no alpha: the same in the colour, copied to a texture (Roettger 2002)",
+      BIT(GN_CAN_DEPTH) | BIT(GN_CAN_BLEND_ROUNDING), 0, COLOR_LIKES, 1},
+     NULL},
 };
+
+int gni_models_less(gn_method method)
+{
+    return method != GN_METHOD_ZFAIL && method != GN_METHOD_ZPASS;
+}
+
+int gni_counts_in_color(gn_method method)
+{
+    return method >= GN_METHOD_COUNT && method < GN_METHOD_TOTAL;
+}
+
+int gni_cuts_casters(gn_method method)
+{
+    return method == GN_METHOD_COUNT || method == GN_METHOD_SIGNED;
+}
 
 const gn_method_info *gn_method_describe(gn_method method)
 {
@@ -54,5 +83,8 @@ const char *gn_plan_method_name(const gn_plan *plan, uint32_t light)
     if (!plan || light >= plan->light_count)
         return "";
     about = &plan->lights[light];
-    return about->stencil.two_sided ? methods[about->method].info.name : methods[about->method].one_sided_name;
+    if (gni_counts_in_color(about->method) ? about->color.both_sides || about->method != GN_METHOD_COUNT
+                                           : about->stencil.two_sided)
+        return methods[about->method].info.name;
+    return methods[about->method].one_sided_name;
 }

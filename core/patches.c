@@ -159,7 +159,7 @@ static int is_worth_it(const gni_draft *d, const gni_patch *patch)
     for (uint32_t l = 0; l < s->light_count; l++) {
         double light[4];
 
-        gni_light_in_view(d, &s->lights[l], light);
+        gni_light_in_view(&d->scene->camera, &s->lights[l], light);
         for (uint32_t i = 0; i < s->object_count; i++) {
             if (s->objects[i].flags & GN_CASTS)
                 saved += saving_of(d, i, patch, light);
@@ -181,8 +181,7 @@ void gni_find_patches(gni_draft *d)
         for (int p = 0; p < GN_MOST_PATCHES; p++)
             d->heights[i][p][0] = NAN;
     }
-    if (d->choice.method != GN_METHOD_STENCIL || s->without & GN_MEASURE_PATCHES || !d->choice.stencil.wrap ||
-        d->region)
+    if (!gni_models_less(d->choice.method) || s->without & GN_MEASURE_PATCHES || !d->choice.stencil.wrap || d->region)
         return;
     while (d->patch_count < GN_MOST_PATCHES) {
         gni_patch *patch = &d->patches[d->patch_count];

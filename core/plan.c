@@ -1,9 +1,5 @@
 /* plan.c - decides a frame: steps, volumes, and their index streams, as plain data in the caller's memory.
- *
- * The order of the passes is McGuire's (2003, section 4): depth and ambient light together; for each light its volumes
- * counted into the stencil and its light added where the count is zero; last what is transparent. The whole colour,
- * depth and stencil are cleared once; between lights the stencil is zeroed by a quad where it has to be (DESIGN.md,
- * decision 9). plan_light.c decides a light.
+ * plan_passes.c has the order of its passes, plan_light.c decides a light.
  *
  * Memory is cut from the given block from its front: the bound and the plan walk the same list of arrays. */
 #include "gni_plan.h"
@@ -39,9 +35,13 @@ static void cut_casting(arena *a, gni_casting *c, size_t triangles)
     c->spare = cut(a, clusters, sizeof *c->spare);
 }
 
-/* The most layers that one batch holds where a light needs several. */
+/* The most layers that one batch holds where a light needs several; in colour fragments, where casters are cut. */
 static uint32_t batch_limit(const gn_scene *s)
 {
+    const gn_method method = gni_pick(s);
+
+    if (gni_counts_in_color(method))
+        return gni_cuts_casters(method) ? gni_color_limit(s, method) : GNI_NONE;
     return gn_target_can(&s->target, GN_CAN_STENCIL_WRAP) ? 127 : 63;
 }
 
@@ -50,6 +50,7 @@ static int lay_out(gni_draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
     const uint32_t limit = batch_limit(s);
+    const int is_colored = gni_counts_in_color(gni_pick(s));
     size_t records = 0, chunks = 0, indices = 0, triangles = 0, all = 0, batches = 1, vertices = 0, largest = 0;
     const size_t most =
         UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
@@ -64,7 +65,7 @@ static int lay_out(gni_draft *d, arena *a)
             continue;
         if (s->camera.orthographic)
             ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
-        pieces = gni_most_pieces(mesh, ends, limit) + GNI_MOST_INTERVALS - 1;
+        pieces = gni_most_pieces(mesh, ends, limit) + (is_colored ? GNI_SPARE_PIECES : GNI_MOST_INTERVALS - 1);
         if (mesh->info.chunk_count > (most - records) / (pieces + GN_MOST_PATCHES) ||
             mesh->info.triangle_count > (most - indices) / GNI_MOST_INDICES)
             return 0;
@@ -77,11 +78,13 @@ static int lay_out(gni_draft *d, arena *a)
         vertices = vertices < mesh->info.vertex_count ? mesh->info.vertex_count : vertices;
     }
     d->plan = cut(a, 1, sizeof *d->plan);
-    /* a light zeroes twice, marks once, darkens each patch and draws twice; each of its batches holds a piece of a
-     * caster at least, and is folded */
-    if (batches > (SIZE_MAX / 2 - 8) / (s->light_count ? s->light_count : 1))
+    /* Before and after all lights there are up to eight. A light zeroes twice, starts a mask (three), marks once, darkens
+     * each patch, resolves and draws twice; each of its batches holds a piece of a caster at least, and is resolved or
+     * folded, and zeroed. */
+    if (batches > (SIZE_MAX / 3 - 13) / (s->light_count ? s->light_count : 1))
         return 0;
-    d->steps = cut(a, 3 + (size_t)s->light_count * (5 + GN_MOST_PATCHES + 2 * batches), sizeof *d->steps);
+    d->steps = cut(a, 8 + (size_t)s->light_count * (9 + GN_MOST_PATCHES + 3 * batches), sizeof *d->steps);
+    d->draws = cut(a, s->light_count, 1);
     d->lights = cut(a, s->light_count, sizeof *d->lights);
     d->objects = cut(a, s->object_count, sizeof *d->objects);
     d->casters = cut(a, (size_t)s->object_count * s->light_count, sizeof *d->casters);
@@ -107,6 +110,14 @@ static int lay_out(gni_draft *d, arena *a)
         d->end_of = cut(a, triangles, 1);
         d->region = cut(a, 1, sizeof *d->region);
         d->ends = cut(a, 1, sizeof *d->ends);
+    }
+    if (is_colored) {
+        for (int i = 0; i < 2; i++) {
+            d->seen_caps[i] = cut(a, triangles, 1);
+            d->seams[i] = cut(a, vertices, sizeof *d->seams[i]);
+        }
+        d->columns = cut(a, GNI_COLUMN_WAYS, sizeof *d->columns);
+        d->tiles = cut(a, GNI_TILES * GNI_TILES, sizeof *d->tiles);
     }
     if (all > limit) {
         d->layers = cut(a, 1, sizeof *d->layers);
@@ -146,7 +157,7 @@ static void find_range(gni_draft *d)
             if (!(object->flags & GN_CASTS))
                 continue;
             gni_find_object_casting(object, &s->lights[light], &d->casting);
-            gni_light_in_view(d, &s->lights[light], light_view);
+            gni_light_in_view(&d->scene->camera, &s->lights[light], light_view);
             gni_model_view(model_view, &s->camera, object->model, object->mesh->info.centre);
             if (gni_choose_ends(d->ends, d->region, object->mesh, model_view, light_view, d->casting.of, d->end_of))
                 deepest = fmax(deepest, d->ends->deepest);
@@ -158,13 +169,13 @@ static void find_range(gni_draft *d)
 }
 
 /* A step of depth at the view distance z is z^2 / (n 2^bits) wide. Surface and side are each rounded to one, the side
- * is drawn one behind, and interpolation adds another: from where four are larger than a pixel on, edges may stray by
+ * is drawn one behind, and interpolation adds another: from where four are larger than half a pixel on, edges may stray by
  * more than that. */
 static void find_depth_limit(gni_draft *d)
 {
     const gn_scene *s = d->scene;
     const gn_camera *c = &s->camera;
-    const double pixel = fmin((c->top - c->bottom) / s->target.height, (c->right - c->left) / s->target.width);
+    const double half = 0.5 * fmin((c->top - c->bottom) / s->target.height, (c->right - c->left) / s->target.width);
     const double steps = ldexp(0.25, s->target.depth_bits);
     double farthest = -INFINITY;
 
@@ -176,10 +187,9 @@ static void find_depth_limit(gni_draft *d)
     }
     d->plan->deepest_receiver = c->zfar != 0.0 ? fmin(farthest, c->zfar) : farthest;
     if (c->orthographic)
-        d->plan->depth_limit =
-            (d->plan->depth_range[1] - d->plan->depth_range[0]) / steps > pixel ? c->znear : INFINITY;
+        d->plan->depth_limit = (d->plan->depth_range[1] - d->plan->depth_range[0]) / steps > half ? c->znear : INFINITY;
     else
-        d->plan->depth_limit = c->znear * pixel * steps;
+        d->plan->depth_limit = c->znear * half * steps;
     if (d->plan->deepest_receiver > d->plan->depth_limit)
         d->plan->warnings |= 1u << GN_WARN_DEPTH;
 }
@@ -207,17 +217,6 @@ static gn_result place_objects(gni_draft *d)
     return GN_OK;
 }
 
-void gni_add_step(gni_draft *d, gn_step_kind kind, gn_draw draw, uint32_t light, int receivers)
-{
-    gn_step *step = &d->steps[d->plan->step_count++];
-
-    memset(step, 0, sizeof *step);
-    step->kind = kind;
-    step->draw = draw;
-    step->light = light;
-    step->receivers = receivers;
-}
-
 static void start_plan(gni_draft *d)
 {
     const gn_scene *s = d->scene;
@@ -228,6 +227,11 @@ static void start_plan(gni_draft *d)
     memset(d->walk.first, 0xff, d->walk.vertex_count * sizeof *d->walk.first); /* GNI_NONE */
     plan->target = s->target;
     plan->blend_once = s->blend_once;
+    plan->mask = d->choice.mask;
+    plan->shade = s->shade;
+    plan->dimmed = d->choice.dimmed;
+    plan->image = d->choice.image;
+    plan->mask_format = d->choice.mask_format;
     plan->steps = d->steps;
     plan->records = d->records;
     plan->indices = d->indices;
@@ -350,17 +354,18 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     if (result != GN_OK)
         return result;
     lay_out(&d, &a);
+    d.is_colored = gni_counts_in_color(d.choice.method);
+    if (d.choice.image.depth_bits)
+        own.target.depth_bits = d.choice.image.depth_bits;
     start_plan(&d);
+    d.plan->target = scene->target;
     result = make_frame(&d, &own);
     if (result != GN_OK)
         return result;
     if (scene->cache)
         gni_start_cache(scene->cache, scene);
-    gni_add_step(&d, GN_STEP_CLEAR, GN_DRAW_NOTHING, 0, 0);
-    gni_add_step(&d, GN_STEP_DRAW, GN_DRAW_AMBIENT, 0, 0);
-    for (uint32_t light = 0; light < scene->light_count && result == GN_OK; light++)
-        result = gni_add_light(&d, light);
-    gni_add_step(&d, GN_STEP_DRAW, GN_DRAW_FINAL, 0, 0);
+    result = gni_add_passes(&d);
+    gni_estimate_traffic(d.plan);
     if (scene->cache)
         gni_end_cache(scene->cache, d.plan);
     if (result == GN_OK)

@@ -86,6 +86,13 @@ gn_result gni_check_scene(gn_context *context, const gn_scene *s)
                        (unsigned long)s->target.height);
     if (!(s->least_light >= 0.0 && isfinite(s->least_light)))
         return gn_fail(context, GN_E_ARG, "plan: the least light that matters is %g", s->least_light);
+    if ((unsigned)s->shade > GN_SHADE_BLACK)
+        return gn_fail(context, GN_E_ARG, "plan: no shade has number %d", (int)s->shade);
+    if (!(s->dimmed >= 0.0 && s->dimmed < 1.0))
+        return gn_fail(context, GN_E_ARG, "plan: a shadow leaves %g of the light, not 0 to 1", s->dimmed);
+    if (s->lights_per_pass > GN_MOST_MASKED)
+        return gn_fail(context, GN_E_ARG, "plan: %lu lights in a pass, at most %d", (unsigned long)s->lights_per_pass,
+                       GN_MOST_MASKED);
     result = gni_check_camera(context, &s->camera);
     for (uint32_t i = 0; i < s->light_count && result == GN_OK; i++)
         result = check_light(context, &s->lights[i], i, s->object_count);

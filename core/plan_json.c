@@ -62,14 +62,25 @@ static void put_record(gni_text *w, const gn_record *r)
 
 static void put_step(gni_text *w, const gn_step *s)
 {
-    static const char *const kinds[] = {"clear", "zero", "volumes", "draw", "fold", "mark", "darken"};
-    static const char *const draws[] = {"nothing", "ambient", "light", "final"};
+    static const char *const kinds[GN_STEP_KIND_COUNT] = {
+        "clear",      "zero",        "volumes", "draw",      "fold", "mark",  "darken", "clear image",
+        "clear mask", "clear color", "resolve", "normalise", "copy", "shade", "opaque", "discard"};
+    static const char *const draws[GN_DRAW_COUNT] = {"nothing", "ambient", "light", "final", "depth", "lit"};
+    static const char *const intos[] = {"target", "image", "mask"};
 
-    gni_put(w, "\n  {\"step\": \"%s\"", kinds[s->kind]);
+    gni_put(w, "\n  {\"step\": \"%s\", \"into\": \"%s\"", kinds[s->kind], intos[s->into]);
     if (s->kind == GN_STEP_DRAW)
         gni_put(w, ", \"draw\": \"%s\"", draws[s->draw]);
-    if (s->draw == GN_DRAW_LIGHT || (s->kind != GN_STEP_CLEAR && s->kind != GN_STEP_DRAW))
+    if (s->light_count) {
+        gni_put(w, ", \"lights\": [");
+        for (uint32_t i = 0; i < s->light_count; i++)
+            gni_put(w, "%s%lu", i ? ", " : "", (unsigned long)s->lights[i]);
+        gni_put(w, "]");
+    } else if (s->light != GN_NO_LIGHT) {
         gni_put(w, ", \"light\": %lu", (unsigned long)s->light);
+    }
+    if (s->into == GN_INTO_MASK || s->kind == GN_STEP_COPY || s->kind == GN_STEP_SHADE || s->draw == GN_DRAW_LIGHT)
+        gni_put(w, ", \"mask\": %lu", (unsigned long)s->mask);
     if (s->draw == GN_DRAW_LIGHT)
         gni_put(w, ", \"receivers\": %s", s->receivers ? "true" : "false");
     if (s->kind == GN_STEP_VOLUMES)
@@ -86,6 +97,27 @@ static void put_caster(gni_text *w, const gn_plan *plan, uint32_t light, uint32_
 
     gni_put(w, "%s{\"skip\": \"%s\", \"case\": %d, \"patches\": %d, \"lit\": %s}", object ? ", " : "",
             gni_skip_name((gn_skip)c->skip), c->mcguire_case, c->patches, c->is_lit ? "true" : "false");
+}
+
+/* Of a light that is counted in colour. */
+static void put_color(gni_text *w, const gn_plan_light *l)
+{
+    static const char *const places[] = {"stencil", "alpha", "color", "image"};
+    const gn_color_layout *c = &l->color;
+
+    gni_put(w,
+            ",\n   \"color\": {\"place\": \"%s\", \"both_sides\": %s, \"discard\": %s, \"levels\": %d, \"start\": %d, "
+            "\"limit\": %d, \"channels\": %u, \"by_maximum\": %s}, \"fragments\": %lu",
+            places[c->place], c->both_sides ? "true" : "false", c->discard ? "true" : "false", c->top, c->start,
+            c->limit, c->channels, c->by_maximum ? "true" : "false", (unsigned long)l->fragments);
+}
+
+static void put_traffic(gni_text *w, const gn_traffic *t)
+{
+    gni_put(w,
+            " \"traffic_bytes_estimated\": {\"target_color\": %.0f, \"target_depth\": %.0f, \"image_color\": %.0f, "
+            "\"image_depth\": %.0f, \"masks\": %.0f, \"written\": %.0f, \"read\": %.0f},\n",
+            t->target_color, t->target_depth, t->image_color, t->image_depth, t->masks, t->written, t->read);
 }
 
 static void put_light(gni_text *w, const gn_plan *plan, uint32_t light)
@@ -111,15 +143,22 @@ static void put_light(gni_text *w, const gn_plan *plan, uint32_t light)
     gni_put(
         w,
         ",\n   \"stencil\": {\"two_sided\": %s, \"discard\": %s, \"wrap\": %s, \"reference\": %d, \"range\": [%d, %d], "
-        "\"bits\": %d, \"flag\": %d, \"patch_bits\": %d},",
+        "\"bits\": %d, \"flag\": %d, \"patch_bits\": %d}",
         s->two_sided ? "true" : "false", s->discard ? "true" : "false", s->wrap ? "true" : "false", s->reference,
         s->low, s->high, s->bits, s->flag, s->patch_bits);
+    if (l->color.place != GN_PLACE_STENCIL)
+        put_color(w, l);
+    gni_put(w, ",\n  ");
+    if (plan->mask == GN_MASK_TEXTURE)
+        gni_put(w, " \"mask_texture\": %lu, \"mask_channel\": %lu,", (unsigned long)l->mask_texture,
+                (unsigned long)l->mask_channel);
     gni_put(w,
-            " \"layers\": %lu, \"batches\": %lu,\n   \"casters\": %lu, \"skipped_casters\": %lu, \"case1\": %lu, "
+            " \"layers\": %lu, \"batches\": %lu, \"cut_casters\": %lu,\n   \"casters\": %lu, \"skipped_casters\": %lu, "
+            "\"case1\": %lu, "
             "\"case2\": %lu, \"case3\": %lu, \"objects\": [",
-            (unsigned long)l->layers, (unsigned long)l->batches, (unsigned long)l->casters,
-            (unsigned long)l->skipped_casters, (unsigned long)l->cases[0], (unsigned long)l->cases[1],
-            (unsigned long)l->cases[2]);
+            (unsigned long)l->layers, (unsigned long)l->batches, (unsigned long)l->cut_casters,
+            (unsigned long)l->casters, (unsigned long)l->skipped_casters, (unsigned long)l->cases[0],
+            (unsigned long)l->cases[1], (unsigned long)l->cases[2]);
     for (uint32_t o = 0; o < plan->object_count; o++)
         put_caster(w, plan, light, o);
     gni_put(w, "]}");
@@ -141,6 +180,20 @@ static void put_warnings(gni_text *w, const gn_plan *plan)
     gni_put(w, "],\n");
 }
 
+static void put_masks(gni_text *w, const gn_plan *plan)
+{
+    static const char *const masks[] = {"stencil", "alpha", "texture"};
+    static const char *const shades[] = {"additive", "attenuate", "black"};
+    static const char *const formats[] = {"none", "rgba8", "rgba4", "rgb5a1", "rgb565"};
+
+    gni_put(w,
+            " \"mask\": \"%s\", \"shade\": \"%s\", \"dimmed\": %g, \"mask_format\": \"%s\", \"mask_textures\": %lu,\n"
+            " \"image\": {\"format\": \"%s\", \"depth_bits\": %d, \"stencil_bits\": %d},\n",
+            masks[plan->mask], shades[plan->shade], plan->dimmed, formats[plan->mask_format],
+            (unsigned long)plan->mask_count, formats[plan->image.format], plan->image.depth_bits,
+            plan->image.stencil_bits);
+}
+
 size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
 {
     gni_text w;
@@ -152,6 +205,8 @@ size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)
             (unsigned long)plan->target.width, (unsigned long)plan->target.height, plan->target.depth_bits,
             plan->target.stencil_bits);
     put_warnings(&w, plan);
+    put_masks(&w, plan);
+    put_traffic(&w, &plan->traffic);
     gni_put(&w, " \"blend_once\": %s, \"clear_depth\": ", plan->blend_once ? "true" : "false");
     put_number(&w, plan->clear_depth);
     gni_put(&w, ", \"depth_range\": [");

@@ -1,4 +1,4 @@
-/* plan_light.c - one light of a frame: what bounds it, which objects it lights and which of them cast, and its steps
+/* plan_light.c - one light of a frame: what bounds it, which objects it lights and which of them cast, and its mask
  * (McGuire 2003, section 6, DetermineShadows).
  *
  * *Model only what a scene requires*: the method stencil asks of every light where it is seen, and of every caster
@@ -11,9 +11,8 @@
 #include <math.h>
 #include <string.h>
 
-void gni_light_in_view(const gni_draft *d, const gn_light *light, double out[4])
+void gni_light_in_view(const gn_camera *c, const gn_light *light, double out[4])
 {
-    const gn_camera *c = &d->scene->camera;
     const int is_sun = light->kind == GN_LIGHT_DIRECTIONAL;
     double v[3];
 
@@ -54,7 +53,7 @@ static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand, g
         return GN_SKIP_NO_CASTER;
     if (is_exempt(light, object))
         return GN_SKIP_EXEMPT;
-    if (method != GN_METHOD_STENCIL)
+    if (!gni_models_less(method))
         return GN_SKIP_NOT;
     if (!gni_may_cast(&d->bounds, &d->boxes[object]))
         return GN_SKIP_OUT_OF_REACH;
@@ -123,56 +122,6 @@ static gn_result add_casters(gni_draft *d)
     return result;
 }
 
-static void corners_of(const uint32_t scissor[4], uint32_t at[4])
-{
-    for (int i = 0; i < 2; i++) {
-        at[i] = scissor[i];
-        at[2 + i] = scissor[i] + scissor[2 + i];
-    }
-}
-
-static int is_inside(const uint32_t inner[4], const uint32_t outer[4])
-{
-    return inner[0] >= outer[0] && inner[1] >= outer[1] && inner[2] <= outer[2] && inner[3] <= outer[3];
-}
-
-/* A step that zeroes the light's scissor, where the stencil may differ from its reference. */
-static void clean_stencil(gni_draft *d)
-{
-    const gn_plan_light *about = &d->lights[d->light];
-    uint32_t *dirty = d->stain.at, at[4];
-
-    corners_of(about->scissor, at);
-    if (d->light == 0) /* the clear is to its reference */
-        d->stain.reference = about->stencil.reference;
-    if (about->stencil.reference != d->stain.reference) { /* then all of it does */
-        dirty[0] = dirty[1] = 0;
-        dirty[2] = d->scene->target.width;
-        dirty[3] = d->scene->target.height;
-        d->stain.reference = about->stencil.reference;
-    }
-    if (at[0] >= dirty[2] || dirty[0] >= at[2] || at[1] >= dirty[3] || dirty[1] >= at[3])
-        return;
-    gni_add_step(d, GN_STEP_ZERO, GN_DRAW_NOTHING, d->light, 0);
-    if (is_inside(dirty, at))
-        memset(dirty, 0, sizeof d->stain.at);
-}
-
-static void stain_stencil(gni_draft *d)
-{
-    uint32_t *dirty = d->stain.at, at[4];
-
-    corners_of(d->lights[d->light].scissor, at);
-    if (dirty[0] >= dirty[2]) {
-        memcpy(dirty, at, sizeof at);
-        return;
-    }
-    for (int i = 0; i < 2; i++) {
-        dirty[i] = dirty[i] < at[i] ? dirty[i] : at[i];
-        dirty[2 + i] = dirty[2 + i] > at[2 + i] ? dirty[2 + i] : at[2 + i];
-    }
-}
-
 /* How the light's volumes are counted: 0 with patches, 1 without, 2 in batches. */
 static void set_way(gni_draft *d, int way, const gn_stencil_layout *layout)
 {
@@ -200,7 +149,7 @@ static void prepare_stencil(gni_draft *d)
         d->stain.at[2] = d->scene->target.width;
         d->stain.at[3] = d->scene->target.height;
     }
-    clean_stencil(d);
+    gni_clean_stencil(d, d->light);
     if (d->uses_patches && !d->are_marked)
         gni_add_step(d, GN_STEP_MARK, GN_DRAW_NOTHING, d->light, 0);
     d->are_marked |= d->uses_patches;
@@ -259,8 +208,65 @@ static gn_result add_volumes(gni_draft *d)
         prepare_stencil(d);
     d->plan->warnings |= is_long ? 1u << GN_WARN_OVERFLOW : 0u;
     if (d->plan->record_count > plan.record_count || d->scene->blend_once || d->uses_patches)
-        stain_stencil(d);
+        gni_stain_stencil(d, d->light);
     gni_end_batch(d, 0);
+    return result;
+}
+
+/* A channel of a mask for the light; its texture is cleared with the first. */
+static void take_channel(gni_draft *d)
+{
+    gn_plan_light *about = &d->lights[d->light];
+    const uint32_t index = d->mask_count++;
+
+    about->mask_texture = index / d->choice.lights_per_mask;
+    about->mask_channel = index % d->choice.lights_per_mask;
+    if (about->mask_channel == 0)
+        gni_start_mask(d);
+    if (about->color.place == GN_PLACE_COLOR)
+        gni_choose_channel(d->scene, &about->color, about->mask_channel);
+}
+
+/* Volumes counted in colour. A light without any leaves its mask as it was cleared; alpha and colour are set. */
+static gn_result add_colored(gni_draft *d)
+{
+    gn_plan_light *about = &d->lights[d->light];
+    const uint32_t step = d->plan->step_count, record = d->plan->record_count;
+    const int is_image = about->color.place == GN_PLACE_IMAGE;
+    gn_result result;
+
+    d->first_of_batch = record;
+    gni_start_color(d);
+    if (!is_image || d->image_is_used)
+        gni_add_step(d, GN_STEP_ZERO, GN_DRAW_NOTHING, d->light, 0);
+    result = add_casters(d);
+    if (d->plan->record_count == record) {
+        d->plan->step_count = is_image ? step : d->plan->step_count;
+        if (about->color.place == GN_PLACE_ALPHA)
+            d->steps[step].kind = GN_STEP_OPAQUE;
+        return result;
+    }
+    d->image_is_used = 1;
+    gni_end_batch(d, 0);
+    if (about->color.place == GN_PLACE_ALPHA)
+        gni_add_step(d, GN_STEP_NORMALISE, GN_DRAW_NOTHING, d->light, 0);
+    return result;
+}
+
+/* The light's mask. */
+static gn_result add_mask(gni_draft *d)
+{
+    uint32_t step;
+    gn_result result;
+
+    if (d->plan->mask == GN_MASK_TEXTURE)
+        take_channel(d);
+    if (d->is_colored)
+        return add_colored(d);
+    step = d->plan->step_count;
+    result = add_volumes(d);
+    if (d->plan->mask == GN_MASK_TEXTURE && d->plan->step_count > step)
+        gni_add_step(d, GN_STEP_RESOLVE, GN_DRAW_NOTHING, d->light, 0);
     return result;
 }
 
@@ -270,7 +276,7 @@ static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
     const gn_scene *s = d->scene;
     double most = 0.0, low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {-INFINITY, -INFINITY, -INFINITY};
 
-    *any_receiver = !d->receivers_are_known || d->lights[d->light].method != GN_METHOD_STENCIL;
+    *any_receiver = !d->receivers_are_known || !gni_models_less(d->lights[d->light].method);
     *any_other = 0;
     for (uint32_t i = 0; i < s->object_count; i++) {
         const gn_object *object = &s->objects[i];
@@ -278,7 +284,7 @@ static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
 
         memset(caster, 0, sizeof *caster);
         caster->skip = object->flags & GN_CASTS ? GN_SKIP_NO_RECEIVER : GN_SKIP_NO_CASTER;
-        caster->is_lit = d->lights[d->light].method != GN_METHOD_STENCIL ||
+        caster->is_lit = !gni_models_less(d->lights[d->light].method) ||
                          (gni_may_be_seen(&d->seen, &d->boxes[i]) && gni_may_be_lit(&d->bounds, &d->boxes[i]));
         d->is_in[i] = caster->is_lit ? GNI_IN_LIT : 0;
         if (!caster->is_lit)
@@ -341,9 +347,10 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
     d->light = light;
     about->method = d->choice.method;
     about->stencil = d->choice.stencil;
+    about->color = d->choice.color;
     memcpy(about->reason, d->choice.reason, sizeof about->reason);
-    gni_light_in_view(d, &s->lights[light], at);
-    if (about->method == GN_METHOD_STENCIL)
+    gni_light_in_view(&d->scene->camera, &s->lights[light], at);
+    if (gni_models_less(about->method))
         gni_find_bounds(&d->bounds, s, light, at, d->view);
     else
         gni_no_bounds(&d->bounds, s, at);
@@ -353,7 +360,7 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
     memcpy(about->scissor, d->bounds.scissor, sizeof about->scissor);
     gni_make_view(&d->seen, &s->camera, &s->target, about->scissor);
     most = find_lit(d, &any_receiver, &any_other);
-    if (about->method == GN_METHOD_STENCIL) {
+    if (gni_models_less(about->method)) {
         if (!any_receiver && !any_other)
             return skip_light(d, GN_SKIP_NO_RECEIVER);
         if (most <= s->least_light) {
@@ -363,16 +370,8 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
     }
     find_depth_bounds(d, about);
     gni_light_patches(d);
-    if (any_receiver) {
-        result = add_volumes(d);
-        gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIGHT, light, 1);
-    }
-    if (any_other) {
-        if (s->blend_once)
-            clean_stencil(d);
-        gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIGHT, light, 0);
-        if (s->blend_once)
-            stain_stencil(d);
-    }
+    d->draws[light] = (uint8_t)((any_receiver ? GNI_DRAWS_RECEIVERS : 0) | (any_other ? GNI_DRAWS_OTHERS : 0));
+    if (any_receiver)
+        result = add_mask(d);
     return result;
 }

@@ -33,7 +33,7 @@ static int is_end_crossed(const gni_draft *d, const gni_volume *v)
 
 unsigned gni_choose_parts(const gni_draft *d, const gni_volume *v, int *mcguire_case)
 {
-    const int is_stencil = d->lights[d->light].method == GN_METHOD_STENCIL;
+    const int is_stencil = gni_models_less(d->lights[d->light].method);
     gni_case c = *v->at_hand;
     unsigned parts = 0;
 
@@ -63,6 +63,13 @@ void gni_know_casting(gni_draft *d, uint32_t object)
 
 static void add_volumes(gni_draft *d, const gni_volume *v, uint32_t count, const gni_casting *casting)
 {
+    if (d->is_colored) {
+        if (casting == &d->casting)
+            gni_know_casting(d, v->object);
+        d->casting_count += casting->count;
+        gni_add_colored(d, v, casting);
+        return;
+    }
     if (d->slot && gni_add_kept_records(d, v, count)) {
         d->casting_count += d->slot->triangles;
         gni_note_layers(d, v->object, d->slot->triangles, d->slot->silhouette);

@@ -164,7 +164,7 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, uint32_t count, cons
 
     for (uint32_t i = 0; i < count; i++)
         all |= parts[i] = gni_choose_parts(d, &v[i], &mcguire_case);
-    if (mcguire_case == 1 && all & GN_LIGHT_CAP && d->lights[d->light].method == GN_METHOD_STENCIL)
+    if (mcguire_case == 1 && all & GN_LIGHT_CAP && gni_models_less(d->lights[d->light].method))
         slivers = gni_find_slivers(d, v, eye, heights);
     silhouette = all & GN_SIDES ? 0 : GNI_NONE;
     for (uint32_t c = 0; c < mesh->info.chunk_count; c++) {
@@ -205,10 +205,10 @@ uint32_t gni_add_records(gni_draft *d, const gni_volume *v, uint32_t count, cons
     return silhouette;
 }
 
-/* Of closed meshes a fan. */
-static int kind_of_cap(const gn_mesh *mesh)
+/* Of closed meshes a fan; but counts in colour stop at the ends, and a fan's triangles may lie on each other. */
+static int kind_of_cap(const gni_draft *d, const gn_mesh *mesh)
 {
-    return mesh->info.solid_part_count == mesh->info.part_count ? GNI_STREAM_FAN : GNI_STREAM_CAP;
+    return mesh->info.solid_part_count == mesh->info.part_count && !d->is_colored ? GNI_STREAM_FAN : GNI_STREAM_CAP;
 }
 
 /* The stream of the slot at hand that a volume needs; NULL where there is no room. */
@@ -217,7 +217,7 @@ static const gni_stream *stream_for(gni_draft *d, const gni_volume *v, int *kind
     const gn_mesh *mesh = d->scene->objects[v->object].mesh;
     const gni_stream *stream;
 
-    *kind = v->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? GNI_STREAM_CONVERGING : kind_of_cap(mesh);
+    *kind = v->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? GNI_STREAM_CONVERGING : kind_of_cap(d, mesh);
     stream = gni_make_stream(d, v->object, *kind);
     if (!stream || *kind != GNI_STREAM_FAN || v->far_end == GN_FAR_ENDED ||
         (v->far_end == GN_FAR_INFINITE && d->slot->runs_round && d->lights[d->light].method == GN_METHOD_STENCIL &&
@@ -341,7 +341,7 @@ static void make_cap(gni_draft *d, const gn_mesh *mesh, uint32_t chunk, gn_recor
 void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record)
 {
     const gn_mesh *mesh = d->scene->objects[object].mesh;
-    const int kind = kind_of_cap(mesh);
+    const int kind = kind_of_cap(d, mesh);
     const gni_stream *stream = d->slot ? gni_make_stream(d, object, kind) : NULL;
     uint32_t silhouette = 0;
 

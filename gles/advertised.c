@@ -94,3 +94,10 @@ uint32_t gni_advertised(const gn_gles *g, const gn_target *t)
         set |= 1u << GN_CAN_FRAGMENT_HIGHP;
     return set;
 }
+
+int gni_image_depth(const gn_gles *g)
+{
+    const int version = version_of(text_of(&g->gl, GL_VERSION));
+
+    return version > 0 || version <= -30 || has_word(text_of(&g->gl, GL_EXTENSIONS), "GL_OES_depth24") ? 24 : 16;
+}

@@ -11,6 +11,21 @@ static int bits(const gn_gl *gl, GLenum name)
     return value;
 }
 
+/* Depth that an image of the library's own may borrow: a renderbuffer of the bound framebuffer object. */
+static uint32_t find_depth_to_share(const gn_gl *gl, uint32_t framebuffer)
+{
+    GLint kind = 0, name = 0;
+
+    if (!framebuffer)
+        return 0;
+    gl->glGetFramebufferAttachmentParameteriv(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT,
+                                              GL_FRAMEBUFFER_ATTACHMENT_OBJECT_TYPE, &kind);
+    if (kind == GL_RENDERBUFFER)
+        gl->glGetFramebufferAttachmentParameteriv(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT,
+                                                  GL_FRAMEBUFFER_ATTACHMENT_OBJECT_NAME, &name);
+    return (uint32_t)name;
+}
+
 gn_result gn_gles_describe_target(gn_gles *g, uint32_t width, uint32_t height, const char *saved, gn_target *target)
 {
     gni_host_state host;
@@ -35,6 +50,9 @@ gn_result gn_gles_describe_target(gn_gles *g, uint32_t width, uint32_t height, c
     t.depth_bits = bits(gl, GL_DEPTH_BITS);
     t.stencil_bits = bits(gl, GL_STENCIL_BITS);
     t.samples = bits(gl, GL_SAMPLES);
+    t.image_depth_bits = gni_image_depth(g);
+    t.framebuffer = (uint32_t)bits(gl, GL_FRAMEBUFFER_BINDING);
+    t.shared_depth = t.samples ? 0 : find_depth_to_share(gl, t.framebuffer);
     t.hidden = g->hidden;
     t.advertised = gni_advertised(g, &t);
     if (gl->glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)

@@ -94,7 +94,14 @@ void gn_gles_destroy(gn_gles *g)
         g->gl.glDeleteProgram(g->colored.name); /* 0 is none */
         g->gl.glDeleteProgram(g->counted.name);
         g->gl.glDeleteProgram(g->sided.name);
+        g->gl.glDeleteProgram(g->sided_color.name);
+        g->gl.glDeleteProgram(g->faced.name);
+        g->gl.glDeleteProgram(g->resolve.name);
+        g->gl.glDeleteProgram(g->shade.name);
+        gni_delete_images(g);
     }
+    if (g->images.masks)
+        g->port.resize(g->port.user, g->images.masks, g->images.mask_capacity * sizeof *g->images.masks, 0);
     if (g->uploads)
         g->port.resize(g->port.user, g->uploads, g->upload_capacity * sizeof *g->uploads, 0);
     g->port.resize(g->port.user, g, sizeof *g, 0);

@@ -26,6 +26,9 @@ GN_GL_PROC(glClearDepthf, (GLfloat depth), (depth))
 GN_GL_PROC(glClearStencil, (GLint s), (s))
 GN_GL_PROC(glColorMask, (GLboolean red, GLboolean green, GLboolean blue, GLboolean alpha), (red, green, blue, alpha))
 GN_GL_PROC(glCompileShader, (GLuint shader), (shader))
+GN_GL_PROC(glCopyTexSubImage2D,
+           (GLenum target, GLint level, GLint to_x, GLint to_y, GLint x, GLint y, GLsizei width, GLsizei height),
+           (target, level, to_x, to_y, x, y, width, height))
 GN_GL_FUNC(GLuint, glCreateProgram, (void), ())
 GN_GL_FUNC(GLuint, glCreateShader, (GLenum type), (type))
 GN_GL_PROC(glCullFace, (GLenum mode), (mode))
@@ -59,6 +62,8 @@ GN_GL_PROC(glGenTextures, (GLsizei n, GLuint *textures), (n, textures))
 GN_GL_PROC(glGenerateMipmap, (GLenum target), (target))
 GN_GL_FUNC(GLenum, glGetError, (void), ())
 GN_GL_PROC(glGetFloatv, (GLenum pname, GLfloat *data), (pname, data))
+GN_GL_PROC(glGetFramebufferAttachmentParameteriv,
+           (GLenum target, GLenum attachment, GLenum pname, GLint *params), (target, attachment, pname, params))
 GN_GL_PROC(glGetIntegerv, (GLenum pname, GLint *data), (pname, data))
 GN_GL_PROC(glGetProgramInfoLog, (GLuint program, GLsizei size, GLsizei *length, GLchar *log),
            (program, size, length, log))

@@ -9,7 +9,8 @@ typedef struct gni_face {
 } gni_face;
 
 typedef struct gni_state {
-    GLboolean color_write, depth_write;
+    unsigned color_mask; /* channels that are written: red 1, green 2, blue 4, alpha 8 */
+    GLboolean depth_write;
     GLuint stencil_write;
     GLenum depth_func;   /* 0: no depth test */
     GLenum stencil_func; /* 0: no stencil test */
@@ -17,6 +18,9 @@ typedef struct gni_state {
     GLuint stencil_mask; /* bits that are compared */
     gni_face front, back;
     GLenum blend_source, blend_destination; /* 0, 0: no blending */
+    GLenum alpha_source, alpha_destination; /* of alpha, where they differ: 0, 0: they are the same. GNI_ZERO for 0 */
+    GLenum blend_equation;                  /* 0: ADD */
+    int undithered;                         /* only in plans that may switch it */
     GLenum cull;                            /* the faces that are not drawn; 0: all are */
     int offset;                             /* depth steps by which triangles are moved away from the eye */
     const uint32_t *scissor;                /* x, y, width, height; NULL: no scissor test */
@@ -33,6 +37,8 @@ typedef struct gni_upload {
 /* Of extensions that gl2.h does not know; desktop OpenGL has the same numbers. */
 #define GNI_DEPTH_CLAMP      0x864F
 #define GNI_DEPTH24_STENCIL8 0x88F0
+#define GNI_DEPTH24          0x81A6 /* GL_DEPTH_COMPONENT24_OES */
+#define GNI_MAX              0x8008 /* GL_MAX_EXT */
 #define GNI_DEPTH_BOUNDS     0x8890 /* GL_DEPTH_BOUNDS_TEST_EXT */
 
 #define GNI_SYMPTOM 96
@@ -44,8 +50,25 @@ enum { GNI_QUAD, GNI_FAR_QUAD = 6, GNI_WALL = 12 };
 typedef struct gni_program {
     GLuint name;
     GLint near_matrix, far_matrix;
-    GLint color, side; /* where that way has them */
+    GLint color, side, back; /* where that way has them */
 } gni_program;
+
+/* quad.vert over a shader that reads a texture. */
+typedef struct gni_reader {
+    GLuint name;
+    GLint texture, weights, level, unused, dimmed;
+} gni_reader;
+
+/* fallback/images.c: what counts and masks are made in, of the size and kind of the plan begun last. */
+typedef struct gni_images {
+    gn_image image;
+    gn_format mask_format;
+    uint32_t width, height, mask_count, mask_capacity;
+    GLuint borrowed;                  /* the depth renderbuffer that is the target's */
+    GLuint framebuffer, count, depth; /* count: a texture; 0 where the image's colour is a mask */
+    GLuint mask_framebuffer, *masks;  /* [mask_capacity] textures */
+    GLuint attached;                  /* to the framebuffer that was bound last, of the masks */
+} gni_images;
 
 struct gn_gles {
     gn_context *context;
@@ -55,10 +78,15 @@ struct gn_gles {
     GLuint quad, indices, cached; /* cached: of a shadow cache */
     uint32_t cache_id;            /* what is in it, of which version, and how large it is */
     uint32_t cache_version, cached_capacity;
-    gni_program colored, counted; /* in one colour, and in none */
-    gni_program sided;            /* discards one side of triangles, in no colour; its name is 0 until it is made */
-    const gni_program *in_use;    /* while volumes are drawn */
-    const gn_mesh *pointed;       /* attribute 0 is at this one's chunk; NULL: elsewhere */
+    gni_program colored, counted;   /* in one colour, and in none */
+    gni_program sided;              /* discards one side of triangles, in no colour; its name is 0 until it is made */
+    gni_program sided_color, faced; /* the same in one colour; a colour a side: as are they */
+    gni_reader resolve, shade;      /* and they */
+    gni_images images;
+    gn_into into;              /* what is bound */
+    uint32_t box[4];           /* around the lights of the pass at hand */
+    const gni_program *in_use; /* while volumes are drawn */
+    const gn_mesh *pointed;    /* attribute 0 is at this one's chunk; NULL: elsewhere */
     uint32_t pointed_chunk;
     GLuint bound_indices; /* while volumes are drawn */
     GLuint attribute_arrays;
@@ -74,9 +102,12 @@ struct gn_gles {
     unsigned may_switch; /* of state.c's switches: those that this plan may touch */
 };
 
+#define GNI_ZERO 0xffffu /* GL_ZERO, where 0 means otherwise */
+
 /* state.c. What is no enumerant where its extension is not there: touched by plans that ask for it. */
 #define GNI_SWITCH_BOUNDS (1u << 6)
 #define GNI_SWITCH_CLAMP  (1u << 7)
+#define GNI_SWITCH_DITHER (1u << 8)
 
 /* Sends what differs from what was last sent since gni_reset_state(). */
 void gni_set_state(gn_gles *g, const gni_state *wanted);
@@ -87,6 +118,9 @@ void gni_leave_state(gn_gles *g); /* as in a new context */
 /* program.c: 0 on failure; the driver's log goes to the port under the name given. Attribute 0 is a_position. defines:
  * lines for the fragment shader, "" mostly. */
 GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const char *vertex, const char *fragment);
+
+/* quad.vert over another. 0 on failure. */
+int gni_make_reader(gn_gles *g, gni_reader *out, const char *name, const char *fragment);
 
 /* Of flat.frag's ways, by its defines. 0 on failure. */
 int gni_make_flat_program(gn_gles *g, gni_program *out, const char *name, const char *defines);
@@ -101,6 +135,38 @@ void gni_begin_volumes(gn_gles *g, const gni_program *program);
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *record, int turned);
 void gni_draw_surface(gn_gles *g, const gn_plan_object *object); /* the object itself, by the same program */
 void gni_end_volumes(gn_gles *g);
+
+/* quad.c. Nothing outside a light's bounds is lit: its passes stay in its scissor or in one within, and where the driver
+ * can within its depths. */
+void gni_bound(gni_state *s, const gn_plan *plan, const gn_plan_light *light, const uint32_t scissor[4]);
+/* A quad over the step's light's part of the target, or all of it; color NULL: none is written. */
+void gni_fill_quad(gn_gles *g, const gn_step *step, gni_state state, const float color[4]);
+/* The same by a program that reads a texture, in use and with its uniforms set. */
+void gni_draw_reader(gn_gles *g, const gn_step *step, gni_state state);
+
+/* Which faces a draw counts: both at once, else those that count up, then the others. */
+typedef enum gni_half { GNI_BOTH, GNI_RISING, GNI_FALLING } gni_half;
+
+/* stencil.c: counts in the stencil of whatever is bound. */
+gni_state gni_stencil_light(const gn_plan *plan, const gn_plan_light *light, gni_state unmasked);
+/* Where the count is the light's, or is not (GL_NOTEQUAL): nothing else is set. */
+gni_state gni_where_count(const gn_plan_light *light, GLenum func);
+void gni_stencil_step(gn_gles *g, const gn_step *step);
+int gni_backs_rise(const gn_record *r, int turned);
+int gni_shows_backs(const gn_record *r, int turned, gni_half half);
+
+/* fallback/color.c: the same in colour. */
+int gni_make_color_programs(gn_gles *g, const gn_plan *plan); /* those that it needs; 0 on failure */
+void gni_color_step(gn_gles *g, const gn_step *step);
+
+/* fallback/masks.c: steps that make masks into textures, or dim the frame by masks. */
+void gni_mask_step(gn_gles *g, const gn_step *step);
+
+/* fallback/images.c: makes what the plan needs and is not there. */
+gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan);
+void gni_delete_images(gn_gles *g);
+/* Binds what the step draws into. */
+void gni_bind_for(gn_gles *g, const gn_step *step);
 
 /* host_state.c: keeps what proofs disturb, and puts it back. */
 typedef struct gni_host_state {
@@ -119,6 +185,8 @@ void gni_put_host_back(const gn_gles *g, const gni_host_state *kept);
 
 /* advertised.c: a set of gn_capability; reads the target's bits. */
 uint32_t gni_advertised(const gn_gles *g, const gn_target *target);
+/* Bits of depth that a renderbuffer may have. */
+int gni_image_depth(const gn_gles *g);
 
 /* saved.c: 1 when the text is of this driver and target and knows all that is offered now; then proven, mediump_bits
  * and the symptoms are what it says. */

@@ -5,38 +5,50 @@
  *     while (gn_gles_next(gl, &step))
  *         switch (step.draw) {
  *         case GN_DRAW_AMBIENT: draw_everything(AMBIENT);                       break;
- *         case GN_DRAW_LIGHT:   draw_lit(step.light, step.receivers);           break;
+ *         case GN_DRAW_LIGHT:   draw_lit(step.lights, step.receivers);          break;
  *         case GN_DRAW_FINAL:   draw_transparent_and_labels();                  break;
+ *         case GN_DRAW_DEPTH:   draw_everything(DEPTH);                         break;  masks in textures
+ *         case GN_DRAW_LIT:     draw_everything(ALL_LIGHT);                     break;  frames that are dimmed
  *         }
  *
  * Positions: depth is compared for equality between the host's passes and ours, so every shader that draws an object's
  * surface computes its position by GN_GLSL_POSITION, from vertices less the mesh's centre (gn_mesh_info.centre), with
  * gn_plan_object.matrix.
  *
- * In a light's passes only objects need be drawn whose gn_plan_caster.is_lit says so.
+ * In a light's passes only objects need be drawn whose gn_plan_caster.is_lit says so. Masks in textures have the target's
+ * size, and a light in each channel: GN_GLSL_MASK_VERTEX and GN_GLSL_MASK_FRAGMENT read them.
  *
  * GL state. Between gn_gles_begin() and the end of the walk the host may change anything but the bound framebuffer.
  *
  *     on entry   the framebuffer that the plan's target describes is bound, to draw and to read; no GL error is
  *                pending; the depth range is 0 to 1, and depth clamp, sample coverage and sample alpha to coverage are
  *                off, as in a new context. Any other state
- *     clear      the first gn_gles_next() clears colour (to the host's clear colour), depth and stencil, unmasked
- *     AMBIENT    depth test LESS, depth written; stencil test and blending off
+ *     clear      before the first step but DEPTH colour (to the host's clear colour), depth and, if the plan counts there,
+ *                stencil are cleared, unmasked
+ *     DEPTH      depth test LESS, depth written; no colour written; stencil test and blending off. A framebuffer object
+ *                of the library's own is bound, unless the plan has no image
+ *     AMBIENT    depth test LESS, depth written; stencil test and blending off. After a DEPTH into the target: EQUAL, and
+ *     LIT        depth not written
  *     LIGHT      depth test EQUAL, depth not written; blending ONE, ONE; receivers: stencil test EQUAL to the light's
  *                stencil.reference, stencil not written; the others: stencil test off. A plan that has blend_once:
  *                stencil test EQUAL for both, and INCR where it passes. Scissor test on where the light's scissor is
- *                not the whole target, depth bounds test where its depth bounds are not 0 and 1
+ *                not the whole target, around all of them where they are several; depth bounds test where its depth bounds are not 0
+ *                and 1. Under a mask in alpha: blending DST_ALPHA, ONE for colour; alpha is not written, or by
+ *                blend_once ZERO, ZERO. Under one in a texture: no stencil test
  *     FINAL      depth test LESS, depth not written; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA; stencil test off
- *     in each    viewport 0, 0, width, height of the target; colour written; culling, polygon offset and depth clamp
+ *     in each    viewport 0, 0, width, height of the target; colour written (but where said); the target's framebuffer
+ *                bound (but where said); where counts are made in colour dither on; culling, polygon offset and depth clamp
  *                off, and so are scissor test and depth bounds test but in LIGHT; front face CCW; blend equation ADD;
  *                no program in use; no buffer bound; all vertex attribute arrays disabled
  *     on exit    after gn_gles_next() has returned 0: all of these, cull face, polygon offset, depth clamp, depth
  *                bounds, clear depth and clear stencil are as in a new context, but the viewport and the scissor's box,
- *                which are the target's. Nothing else was
- *                ever touched: textures, dither, clear colour, pixel store, attribute pointers but that of array 0
+ *                which are the target's; the target's framebuffer is bound. Of plans that count in colour dither is on
+ *                and the target's alpha 1 if the count was there; with masks in textures TEXTURE0 is active, without a
+ *                2D texture. Nothing else was ever touched: other textures, clear colour, pixel store, attribute pointers
+ *                but that of array 0
  *
  * Errors come as gn_result, sentences from gn_message() of the context; drivers' logs go to its port. Walking allocates
- * nothing and asks GL nothing. */
+ * nothing and asks GL nothing, but where gn_gles_begin() makes images: for the first plan that needs them, or others. */
 #ifndef GNOMON_GLES_H
 #define GNOMON_GLES_H
 #include "gn_gl.h"
@@ -51,6 +63,41 @@ extern "C" {
     "vec4 gn_position(highp mat4 gn_matrix, highp vec3 gn_vertex)\n"                                                   \
     "{\n"                                                                                                              \
     "    return gn_matrix * vec4(gn_vertex, 1.0);\n"                                                                   \
+    "}\n"
+
+/* The mask of a light's pass in the host's shaders, whatever kind it is. Paste the first into the vertex shader and call
+ * gn_mask_place() with what is written to gl_Position; paste the second into the fragment shader and multiply light i of
+ * the pass (gn_step.lights[i]) with channel i of gn_mask(), which is 0 or 1. Where gn_plan.mask is GN_MASK_TEXTURE and the
+ * step says receivers: a program with GN_MASKED defined before both, the texture gn_gles_mask() bound to the unit in the
+ * uniform gn_mask_texture. Else, without GN_MASKED, the mask is 1, and stencil test or blending do the rest.
+ * The place is divided by w where the texture is read, and by nothing else: screen positions are not linear in
+ * perspective, and half floats do no arithmetic on them (DESIGN.md, decision 12). */
+#define GN_GLSL_MASK_VERTEX                                                                                            \
+    "#ifdef GN_MASKED\n"                                                                                               \
+    "varying highp vec3 gn_mask_at;\n"                                                                                 \
+    "#endif\n"                                                                                                         \
+    "void gn_mask_place(highp vec4 gn_clip)\n"                                                                         \
+    "{\n"                                                                                                              \
+    "#ifdef GN_MASKED\n"                                                                                               \
+    "    gn_mask_at = vec3(0.5 * (gn_clip.xy + gn_clip.ww), gn_clip.w);\n"                                             \
+    "#endif\n"                                                                                                         \
+    "}\n"
+#define GN_GLSL_MASK_FRAGMENT                                                                                          \
+    "#ifdef GN_MASKED\n"                                                                                               \
+    "#ifdef GL_FRAGMENT_PRECISION_HIGH\n"                                                                              \
+    "varying highp vec3 gn_mask_at;\n"                                                                                 \
+    "#else\n"                                                                                                          \
+    "varying mediump vec3 gn_mask_at;\n"                                                                               \
+    "#endif\n"                                                                                                         \
+    "uniform lowp sampler2D gn_mask_texture;\n"                                                                        \
+    "#endif\n"                                                                                                         \
+    "lowp vec4 gn_mask()\n"                                                                                            \
+    "{\n"                                                                                                              \
+    "#ifdef GN_MASKED\n"                                                                                               \
+    "    return texture2DProj(gn_mask_texture, gn_mask_at);\n"                                                         \
+    "#else\n"                                                                                                          \
+    "    return vec4(1.0);\n"                                                                                          \
+    "#endif\n"                                                                                                         \
     "}\n"
 
 typedef struct gn_gles gn_gles;
@@ -106,12 +153,18 @@ gn_result gn_gles_upload(gn_gles *gl, const gn_mesh *mesh);
 void gn_gles_unload(gn_gles *gl, const gn_mesh *mesh); /* does nothing for one that is not there */
 
 /* Starts a frame: checks that every caster of the plan is uploaded and sends the plan's indices. The first plan that
- * counts one side at a time also has a shader compiled. The plan must stay until the walk has ended. Returns GN_OK;
- * GN_E_ARG; GN_E_DEVICE when that shader is refused. */
+ * counts one side at a time, or in colour, also has shaders compiled, and one with masks in textures has images made, of
+ * the target's size: kept until a plan needs others. The plan must stay until the walk has ended. Returns GN_OK; GN_E_ARG;
+ * GN_E_MEMORY; GN_E_DEVICE when a shader or a framebuffer is refused. */
 gn_result gn_gles_begin(gn_gles *gl, const gn_plan *plan);
 
 /* Does what the plan says up to the next step that is the host's. Returns 1 with that step, or 0 at the frame's end. */
 int gn_gles_next(gn_gles *gl, gn_step *step);
+
+/* The GL's name of a mask texture of the plan last begun (gn_step.mask), of the target's size, to be bound for a light's
+ * pass; 0 for what is none. Channel i is 1 where gn_step.lights[i] reaches, else 0. Its filter is NEAREST, and it lives
+ * until the next gn_gles_begin(). */
+uint32_t gn_gles_mask(const gn_gles *gl, uint32_t mask);
 
 /* Draws the volumes of some records of the plan last begun in one colour, each in its scissor, to look at or to
  * count. Depth, stencil, blending, masks and culling are the host's; depth clamp is on where a record needs it and off

@@ -2,6 +2,7 @@
 #include "gni_gles.h"
 
 #include "shaders/flat.frag.h"
+#include "shaders/quad.vert.h"
 #include "shaders/volume.vert.h"
 
 #include <stdio.h>
@@ -82,5 +83,23 @@ int gni_make_flat_program(gn_gles *g, gni_program *out, const char *name, const 
     out->far_matrix = gl->glGetUniformLocation(out->name, "u_far");
     out->color = gl->glGetUniformLocation(out->name, "u_color");
     out->side = gl->glGetUniformLocation(out->name, "u_side");
+    out->back = gl->glGetUniformLocation(out->name, "u_back");
+    return 1;
+}
+
+int gni_make_reader(gn_gles *g, gni_reader *out, const char *name, const char *fragment)
+{
+    const gn_gl *gl = &g->gl;
+
+    if (out->name)
+        return 1;
+    out->name = gni_make_program(g, name, "", gni_shader_quad_vert, fragment);
+    if (!out->name)
+        return 0;
+    out->texture = gl->glGetUniformLocation(out->name, "u_texture");
+    out->weights = gl->glGetUniformLocation(out->name, "u_weights");
+    out->level = gl->glGetUniformLocation(out->name, "u_level");
+    out->unused = gl->glGetUniformLocation(out->name, "u_unused");
+    out->dimmed = gl->glGetUniformLocation(out->name, "u_dimmed");
     return 1;
 }

@@ -7,16 +7,18 @@
 #include <string.h>
 
 /* What is switched on and off, in the order of the bits of gn_gles.tests_on. */
-static const GLenum switches[] = {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_BLEND,         GL_POLYGON_OFFSET_FILL,
-                                  GL_CULL_FACE,  GL_SCISSOR_TEST, GNI_DEPTH_BOUNDS, GNI_DEPTH_CLAMP};
+static const GLenum switches[] = {GL_DEPTH_TEST,          GL_STENCIL_TEST, GL_BLEND,
+                                  GL_POLYGON_OFFSET_FILL, GL_CULL_FACE,    GL_SCISSOR_TEST,
+                                  GNI_DEPTH_BOUNDS,       GNI_DEPTH_CLAMP, GL_DITHER};
 enum { SWITCHES = sizeof switches / sizeof switches[0] };
 
 static void send_switches(gn_gles *g, const gni_state *wanted)
 {
     const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) |
-                        (wanted->blend_source ? 4u : 0u) | (wanted->offset ? 8u : 0u) | (wanted->cull ? 16u : 0u) |
-                        (wanted->scissor ? 32u : 0u) | (wanted->bounds ? GNI_SWITCH_BOUNDS : 0u) |
-                        (wanted->clamp ? GNI_SWITCH_CLAMP : 0u);
+                        (wanted->blend_source || wanted->blend_destination ? 4u : 0u) | (wanted->offset ? 8u : 0u) |
+                        (wanted->cull ? 16u : 0u) | (wanted->scissor ? 32u : 0u) |
+                        (wanted->bounds ? GNI_SWITCH_BOUNDS : 0u) | (wanted->clamp ? GNI_SWITCH_CLAMP : 0u) |
+                        (wanted->undithered ? 0u : g->may_switch & GNI_SWITCH_DITHER);
     const unsigned changed = g->state_is_known ? on ^ g->tests_on : on | g->may_switch | (GNI_SWITCH_BOUNDS - 1u);
 
     for (int i = 0; i < SWITCHES; i++) {
@@ -67,6 +69,30 @@ static void send_stencil(gn_gles *g, const gni_state *wanted)
     last->back = wanted->back;
 }
 
+static GLenum factor(GLenum given)
+{
+    return given == GNI_ZERO ? GL_ZERO : given;
+}
+
+static void send_blending(gn_gles *g, const gni_state *wanted)
+{
+    const gn_gl *gl = &g->gl;
+    gni_state *last = &g->state;
+
+    if (wanted->blend_source != last->blend_source || wanted->blend_destination != last->blend_destination ||
+        wanted->alpha_source != last->alpha_source || wanted->alpha_destination != last->alpha_destination) {
+        if (wanted->alpha_source)
+            gl->glBlendFuncSeparate(wanted->blend_source, wanted->blend_destination, factor(wanted->alpha_source),
+                                    factor(wanted->alpha_destination));
+        else
+            gl->glBlendFunc(wanted->blend_source, wanted->blend_destination);
+    }
+    last->blend_source = wanted->blend_source;
+    last->blend_destination = wanted->blend_destination;
+    last->alpha_source = wanted->alpha_source;
+    last->alpha_destination = wanted->alpha_destination;
+}
+
 void gni_set_state(gn_gles *g, const gni_state *wanted)
 {
     const gn_gl *gl = &g->gl;
@@ -74,8 +100,9 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
     const int all = !g->state_is_known;
 
     send_switches(g, wanted);
-    if (all || wanted->color_write != last->color_write)
-        gl->glColorMask(wanted->color_write, wanted->color_write, wanted->color_write, wanted->color_write);
+    if (all || wanted->color_mask != last->color_mask)
+        gl->glColorMask(wanted->color_mask & 1, wanted->color_mask >> 1 & 1, wanted->color_mask >> 2 & 1,
+                        wanted->color_mask >> 3 & 1);
     if (all || wanted->depth_write != last->depth_write)
         gl->glDepthMask(wanted->depth_write);
     if (all || wanted->stencil_write != last->stencil_write)
@@ -86,12 +113,11 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
     }
     if (wanted->stencil_func)
         send_stencil(g, wanted);
-    if (wanted->blend_source &&
-        (wanted->blend_source != last->blend_source || wanted->blend_destination != last->blend_destination)) {
-        gl->glBlendFunc(wanted->blend_source, wanted->blend_destination);
-        last->blend_source = wanted->blend_source;
-        last->blend_destination = wanted->blend_destination;
-    }
+    if (wanted->blend_source || wanted->blend_destination)
+        send_blending(g, wanted);
+    if (wanted->blend_equation != last->blend_equation)
+        gl->glBlendEquation(wanted->blend_equation ? wanted->blend_equation : GL_FUNC_ADD);
+    last->blend_equation = wanted->blend_equation;
     if (wanted->offset && wanted->offset != last->offset) {
         gl->glPolygonOffset(0.0f, (GLfloat)wanted->offset);
         last->offset = wanted->offset;
@@ -110,7 +136,7 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         gl->glCullFace(wanted->cull);
         last->cull = wanted->cull;
     }
-    last->color_write = wanted->color_write;
+    last->color_mask = wanted->color_mask;
     last->depth_write = wanted->depth_write;
     last->stencil_write = wanted->stencil_write;
     g->state_is_known = 1;
@@ -130,7 +156,7 @@ void gni_reset_state(gn_gles *g)
 
 void gni_leave_state(gn_gles *g)
 {
-    static const gni_state off = {.color_write = GL_TRUE, .depth_write = GL_TRUE, .stencil_write = ~0u};
+    static const gni_state off = {.color_mask = 15, .depth_write = GL_TRUE, .stencil_write = ~0u};
     const gn_gl *gl = &g->gl;
 
     gni_reset_state(g);

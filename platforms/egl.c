@@ -98,6 +98,27 @@ static EGLDisplay display_of(egl_platform *e, int way)
     return e->eglGetDisplay(EGL_DEFAULT_DISPLAY);
 }
 
+/* The first with just the colours that are wanted, if there is one: EGL puts those with more before. */
+static EGLConfig closest(egl_platform *e, const platform_desc *d, const EGLConfig *found, EGLint count)
+{
+    const EGLint names[4] = {EGL_RED_SIZE, EGL_GREEN_SIZE, EGL_BLUE_SIZE, EGL_ALPHA_SIZE};
+    const int wanted[4] = {d->red_bits, d->green_bits, d->blue_bits, d->alpha_bits};
+
+    for (EGLint i = 0; i < count; i++) {
+        int same = 1;
+
+        for (int c = 0; c < 4; c++) {
+            EGLint bits = -1;
+
+            e->eglGetConfigAttrib(e->display, found[i], names[c], &bits);
+            same &= bits == wanted[c];
+        }
+        if (same)
+            return found[i];
+    }
+    return found[0];
+}
+
 /* The config with the wanted bits, or with as many of them as there are: what a context lacks, its user says better. */
 static int choose_config(egl_platform *e, const platform_desc *d, EGLConfig *config)
 {
@@ -123,10 +144,13 @@ static int choose_config(egl_platform *e, const platform_desc *d, EGLConfig *con
                                  EGL_SAMPLES,
                                  0,
                                  EGL_NONE};
+        EGLConfig found[64];
         EGLint count = 0;
 
-        if (e->eglChooseConfig(e->display, wanted, config, 1, &count) && count > 0)
+        if (e->eglChooseConfig(e->display, wanted, found, 64, &count) && count > 0) {
+            *config = closest(e, d, found, count);
             return 1;
+        }
     }
     return 0;
 }

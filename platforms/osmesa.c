@@ -13,6 +13,10 @@ typedef void *osmesa_context;
 
 #define OSMESA_RGBA 0x1908 /* GL_RGBA */
 
+#ifndef OSMESA_RGB_565
+#define OSMESA_RGB_565 0x5 /* what a compatibility header may lack */
+#endif
+
 typedef struct osmesa_platform {
     platform base;
     void *library;
@@ -22,7 +26,8 @@ typedef struct osmesa_platform {
     GLboolean (*make_current)(osmesa_context context, void *buffer, GLenum type, GLsizei width, GLsizei height);
     void (*(*get_proc)(const char *name))(void);
     osmesa_context context;
-    uint8_t *buffer; /* [height][width][4] */
+    int is_565;      /* two bytes of a pixel, else four */
+    uint8_t *buffer; /* [height][width] */
 } osmesa_platform;
 
 extern const platform_kind platform_osmesa;
@@ -31,8 +36,8 @@ static int make_current(platform *p)
 {
     osmesa_platform *o = (osmesa_platform *)p;
 
-    return o->make_current(o->context, o->buffer, GL_UNSIGNED_BYTE, (GLsizei)p->actual.width,
-                           (GLsizei)p->actual.height) != 0;
+    return o->make_current(o->context, o->buffer, o->is_565 ? GL_UNSIGNED_SHORT_5_6_5 : GL_UNSIGNED_BYTE,
+                           (GLsizei)p->actual.width, (GLsizei)p->actual.height) != 0;
 }
 
 static void destroy(platform *p)
@@ -77,7 +82,8 @@ static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE
                               &o->base.actual.alpha_bits, &o->base.actual.depth_bits, &o->base.actual.stencil_bits};
 
         o->buffer = calloc(desc->height, 4 * (size_t)desc->width);
-        o->context = o->create(OSMESA_RGBA, desc->depth_bits, desc->stencil_bits, 0, NULL);
+        o->is_565 = desc->red_bits == 5 && desc->green_bits == 6 && desc->alpha_bits == 0;
+        o->context = o->create(o->is_565 ? OSMESA_RGB_565 : OSMESA_RGBA, desc->depth_bits, desc->stencil_bits, 0, NULL);
         if (!o->buffer || !o->context || !make_current(&o->base))
             failure = !o->buffer ? "no memory for the surface" : "it refuses a context of that size and those bits";
         else {

@@ -34,6 +34,7 @@ int command_methods(int count, char **arguments)
 
         printf("%-8s %-8s %s\n", info->name, info->exact ? "exact" : "inexact", info->summary);
         print_set("                  needs ", info->needs);
+        print_set(", one of ", info->needs_any);
         print_set("; makes do without ", info->likes);
         printf("%s", info->needs ? "\n" : "");
     }

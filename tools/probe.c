@@ -36,6 +36,7 @@ static const struct {
 /* Whether a method can draw into the target, and how, or why not: what the plan of an empty frame says. */
 static void add_method(cJSON *to, gn_context *context, gn_method method, const gn_target *target)
 {
+    static const char *const places[] = {"", "the target's alpha", "the target's colour", "an image"};
     static double memory[4096];
     gn_light light;
     char text[320];
@@ -53,12 +54,18 @@ static void add_method(cJSON *to, gn_context *context, gn_method method, const g
     s.light_count = 1;
     s.target = *target;
     s.method = method;
+    s.reads_masks = 1;
     if (gn_plan_make(context, &s, memory, sizeof memory, &plan) != GN_OK) {
         cJSON_AddStringToObject(to, gn_method_describe(method)->name, gn_message(context));
         return;
     }
-    snprintf(text, sizeof text, "possible%s; %d layers at once, more in batches",
-             plan->lights[0].reason + strcspn(plan->lights[0].reason, ";"), plan->lights[0].stencil.high);
+    if (plan->lights[0].color.place == GN_PLACE_STENCIL)
+        snprintf(text, sizeof text, "possible%s; %d layers at once, more in batches",
+                 plan->lights[0].reason + strcspn(plan->lights[0].reason, ";"), plan->lights[0].stencil.high);
+    else
+        snprintf(text, sizeof text, "possible%s; in %s; %d fragments of one side over a pixel at once, more in batches",
+                 plan->lights[0].reason + strcspn(plan->lights[0].reason, ";"), places[plan->lights[0].color.place],
+                 plan->lights[0].color.limit);
     cJSON_AddStringToObject(to, gn_method_describe(method)->name, text);
 }
 

@@ -24,6 +24,9 @@ const char help_render[] =
     "  --mask-dir DIR        writes light0.png, light1.png ... into DIR: 255 lit, 0 shadowed, "
     "alpha where a surface is\n"
     "  --method NAME         see `gnomon methods` [auto]\n"
+    "  --shade HOW           additive: lights are added to ambient; attenuate: shadows dim a lit frame; black "
+    "[additive]\n"
+    "  --bits R,G,B,A,D,S    of the target, as near as the platform has [8,8,8,8,24,8]\n"
     "  --platform NAME       egl or osmesa [the first that works]\n"
     "  --hide CAP[,CAP...]   pretends that capabilities are absent: `gnomon probe` names them\n"
     "  --explain             prints why each light got its method, and each caster its case\n"
@@ -43,7 +46,9 @@ const char help_render[] =
     "  --help                this text\n";
 
 typedef struct job {
-    const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report, *soft;
+    const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report, *soft, *shade_name, *bits_text;
+    int bits[6];
+    gn_shade shade;
     long size[2], frames, soft_count;
     long update_every, proxy;
     double weld_angle;
@@ -118,7 +123,12 @@ static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
         return EXIT_FAILED;
     }
     for (uint32_t i = 0; i < s->scene->light_count; i++) {
-        const stage_wish wish = {j->method, j->one_sided, 1, i, 1, 1, 0, 0.0, 0, 0};
+        const stage_wish wish = {.method = j->method,
+                                 .one_sided = j->one_sided,
+                                 .casting = 1,
+                                 .first_light = i,
+                                 .light_count = 1,
+                                 .unbounded = 1};
         const int status = stage_plan(s, &wish, message);
 
         if (status != 0 || !stage_draw_mask(s, i, message)) {
@@ -151,8 +161,14 @@ static int write_plan(const stage *s, const char *path)
 /* One frame, drawn and waited for. Returns 0 or an exit status. */
 static int timed_frame(stage *s, const job *j, int casting, double *ms, char message[SCENE_MESSAGE])
 {
-    const stage_wish wish = {j->method, j->one_sided,  casting,       0, s->light_count,
-                             0,         j->blend_once, j->importance, 0, casting};
+    const stage_wish wish = {.method = j->method,
+                             .one_sided = j->one_sided,
+                             .casting = casting,
+                             .light_count = s->light_count,
+                             .blend_once = j->blend_once,
+                             .least_light = j->importance,
+                             .keeps = casting,
+                             .shade = j->shade};
     const double start = now_ms();
     const int status = stage_plan(s, &wish, message);
 
@@ -301,8 +317,8 @@ static int run(const job *j, const char *path)
                                    (uint32_t)j->size[0],
                                    (uint32_t)j->size[1],
                                    j->exposure,
-                                   24,
-                                   8,
+                                   j->bits[4],
+                                   j->bits[5],
                                    j->hide,
                                    0.0,
                                    NULL,
@@ -310,7 +326,8 @@ static int run(const job *j, const char *path)
                                    j->soft_radius,
                                    {(uint32_t)j->update_every, j->update_distance},
                                    j->weld_angle * 0.017453292519943295,
-                                   (uint32_t)j->proxy};
+                                   (uint32_t)j->proxy,
+                                   j->bits};
     char message[SCENE_MESSAGE] = "";
     measured m;
     scene loaded;
@@ -363,6 +380,38 @@ static int parse_soft(job *j)
     return 0;
 }
 
+/* R,G,B,A,D,S */
+static int parse_bits(job *j)
+{
+    const char *at = j->bits_text;
+
+    for (int i = 0; i < 6; i++) {
+        char *end;
+        const long bits = strtol(at, &end, 10);
+
+        if (end == at || bits < 0 || bits > 32 || *end != (i < 5 ? ',' : '\0')) {
+            say("--bits: takes R,G,B,A,D,S, each from 0 to 32 (%s)", j->bits_text);
+            return 0;
+        }
+        j->bits[i] = (int)bits;
+        at = end + 1;
+    }
+    return 1;
+}
+
+static int parse_shade(job *j)
+{
+    static const char *const names[] = {"additive", "attenuate", "black"};
+
+    for (int i = 0; i < 3; i++)
+        if (strcmp(j->shade_name, names[i]) == 0) {
+            j->shade = (gn_shade)i;
+            return 1;
+        }
+    say("--shade: takes additive, attenuate or black (%s)", j->shade_name);
+    return 0;
+}
+
 static int one_of(const char *word, const char *const *words)
 {
     for (; *words; words++)
@@ -374,12 +423,20 @@ static int one_of(const char *word, const char *const *words)
 int command_render(int count, char **arguments)
 {
     static const char *const shows[] = {"volumes", "silhouette", "cases", "mask", NULL};
-    job j = {.method_name = "auto", .size = {800, 600}, .frames = 1, .soft_count = 1, .update_every = 1};
+    job j = {.method_name = "auto",
+             .shade_name = "additive",
+             .bits_text = "8,8,8,8,24,8",
+             .size = {800, 600},
+             .frames = 1,
+             .soft_count = 1,
+             .update_every = 1};
     const option options[] = {
         {"-o", OPTION_TEXT, &j.frame, 0, 0},
         {"--size", OPTION_SIZE, j.size, 1, 16384},
         {"--mask-dir", OPTION_TEXT, &j.mask_dir, 0, 0},
         {"--method", OPTION_TEXT, &j.method_name, 0, 0},
+        {"--shade", OPTION_TEXT, &j.shade_name, 0, 0},
+        {"--bits", OPTION_TEXT, &j.bits_text, 0, 0},
         {"--platform", OPTION_TEXT, &j.platform, 0, 0},
         {"--hide", OPTION_TEXT, &j.hide, 0, 0},
         {"--explain", OPTION_FLAG, &j.explain, 0, 0},
@@ -415,6 +472,8 @@ int command_render(int count, char **arguments)
         return EXIT_USAGE;
     }
     if (!check_hidden("--hide", j.hide) || !check_hidden("GNOMON_HIDE", getenv("GNOMON_HIDE")))
+        return EXIT_USAGE;
+    if (!parse_bits(&j) || !parse_shade(&j))
         return EXIT_USAGE;
     if (j.soft && !parse_soft(&j))
         return EXIT_USAGE;

@@ -59,6 +59,8 @@ static void add_lights(cJSON *root, const gn_plan *plan)
         cJSON_AddNumberToObject(o, "possible_error", l->possible_error);
         cJSON_AddNumberToObject(o, "layers", l->layers);
         cJSON_AddNumberToObject(o, "batches", l->batches);
+        cJSON_AddNumberToObject(o, "fragments", l->fragments);
+        cJSON_AddNumberToObject(o, "cut_casters", l->cut_casters);
         cJSON_AddItemToArray(lights, o);
     }
 }
@@ -77,8 +79,24 @@ static void add_counts(cJSON *root, const measured *m)
     cJSON_AddNumberToObject(counts, "fragments_passed", (double)m->fragments_passed);
 }
 
+/* Bytes that the last frame's plan expects, by what is written and read. */
+static void add_traffic(cJSON *root, const gn_plan *plan)
+{
+    cJSON *const o = cJSON_AddObjectToObject(root, "traffic_bytes_estimated");
+    const gn_traffic *t = &plan->traffic;
+
+    cJSON_AddNumberToObject(o, "target_color", t->target_color);
+    cJSON_AddNumberToObject(o, "target_depth", t->target_depth);
+    cJSON_AddNumberToObject(o, "image_color", t->image_color);
+    cJSON_AddNumberToObject(o, "image_depth", t->image_depth);
+    cJSON_AddNumberToObject(o, "masks", t->masks);
+    cJSON_AddNumberToObject(o, "written", t->written);
+    cJSON_AddNumberToObject(o, "read", t->read);
+}
+
 int write_report(const char *path, const stage *s, measured *m)
 {
+    static const char *const masks[] = {"stencil", "alpha", "texture"};
     cJSON *const root = cJSON_CreateObject();
     cJSON *ms;
     char *text;
@@ -90,8 +108,10 @@ int write_report(const char *path, const stage *s, measured *m)
     cJSON_AddStringToObject(root, "platform", s->platform->kind->name);
     add_target(root, &s->target);
     cJSON_AddNumberToObject(root, "frames", m->frames);
+    cJSON_AddStringToObject(root, "mask", masks[s->plan->mask]);
     add_lights(root, s->plan);
     add_counts(root, m);
+    add_traffic(root, s->plan);
     ms = cJSON_AddObjectToObject(root, "ms");
     add_timing(ms, "frame", m->ms.frame, m->ms.count);
     add_timing(ms, "same_passes_without_volumes", m->ms.same_passes, m->ms.count);

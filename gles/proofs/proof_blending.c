@@ -106,23 +106,45 @@ static int limits(gni_proofs *p)
     return levels_are(p, limited, "the largest with 1/4, then the smallest with 1/2:");
 }
 
-/* Halving by 127/255 (15/31 ...), then doubling. */
-static void draw_halves(gni_proofs *p)
+static int level_bits(const gni_proofs *p)
 {
-    draw_ramp(p);
-    blend(p, GL_FUNC_ADD, GL_ZERO, GL_SRC_COLOR, top_level(p) / 2);
-    blend(p, GL_FUNC_ADD, GL_DST_COLOR, GL_ONE, top_level(p));
+    return p->target->red_bits < 8 ? p->target->red_bits : 8;
 }
 
-static int halved(int level, int top)
+static void blend_part(gni_proofs *p, int x, int height, GLenum source, GLenum destination, int level)
 {
-    (void)top;
-    return level / 2 * 2;
+    const float value = (float)level / (float)top_level(p), color[4] = {value, value, value, value};
+
+    p->gl->glBlendFunc(source, destination);
+    gni_draw_rectangle(p, x, 0, CELL - x, height, 0.0f, 0, color);
+}
+
+/* From full: column i is halved i times, by 128/255 (16/31 ...), and the lower rows are doubled as often. */
+static void draw_halves(gni_proofs *p)
+{
+    gni_draw_rectangle(p, 0, 0, CELL, CELL, 0.0f, 0, gni_white);
+    p->gl->glEnable(GL_BLEND);
+    for (int i = 1; i <= level_bits(p); i++)
+        blend_part(p, i, CELL, GL_ZERO, GL_SRC_COLOR, (top_level(p) + 1) / 2);
+    for (int i = 1; i <= level_bits(p); i++)
+        blend_part(p, i, CELL / 2, GL_DST_COLOR, GL_ONE, top_level(p));
+    p->gl->glDisable(GL_BLEND);
 }
 
 static int halves(gni_proofs *p)
 {
-    return levels_are(p, halved, "halving, then doubling");
+    const int top = top_level(p), bits = level_bits(p);
+
+    for (int y = 0; y < p->height; y++)
+        for (int x = 0; x < p->width; x++) {
+            const int times = x < bits ? x : bits, halved = times ? (top + 1) >> times : top;
+            const int right = y < CELL / 2 ? top : halved, got = red_level(p, x, y);
+
+            if (got != right)
+                return gni_failed(p, "full halved %d times%s is %d, not %d", times,
+                                  y < CELL / 2 ? " and doubled as often" : "", got, right);
+        }
+    return 1;
 }
 
 /* Left half alpha 0, right half alpha 1; then white times the alpha that is there, alpha left alone. */

@@ -83,7 +83,31 @@ static int read(gni_proofs *p)
 
 static const int is_red[4] = {255, 0, 0, -1}, is_black[4] = {0, 0, 0, -1}, is_blue[4] = {0, 0, 255, -1};
 
-static int holds_color(gni_proofs *p, GLenum format, GLenum type)
+/* Counts are made there: single steps of red add up to every level. */
+static int adds_steps(gni_proofs *p, int top)
+{
+    const float step = 1.0f / (float)top, color[4] = {step, step, step, step};
+
+    gni_fresh_state(p);
+    p->gl->glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
+    p->gl->glClear(GL_COLOR_BUFFER_BIT);
+    p->gl->glEnable(GL_BLEND);
+    p->gl->glBlendFunc(GL_ONE, GL_ONE);
+    for (int x = 0; x < SIZE; x++)
+        gni_draw_rectangle(p, x, 0, SIZE - x, SIZE, 0.0f, 0, color);
+    p->gl->glDisable(GL_BLEND);
+    if (!read(p))
+        return 0;
+    for (int x = 0; x < SIZE; x++) {
+        const int wanted = x + 1 < top ? x + 1 : top, got = (p->pixels[4 * x] * top + 127) / 255;
+
+        if (got != wanted)
+            return gni_failed(p, "%d steps of 1/%d added are level %d", x + 1, top, got);
+    }
+    return 1;
+}
+
+static int holds_color(gni_proofs *p, GLenum format, GLenum type, int top)
 {
     object o;
     int ok;
@@ -96,7 +120,7 @@ static int holds_color(gni_proofs *p, GLenum format, GLenum type)
         p->gl->glClear(GL_COLOR_BUFFER_BIT);
         gni_draw_rectangle(p, 8, 0, 8, SIZE, 0.0f, 0, gni_blue);
         ok = read(p) && gni_is_color(p, 0, 0, 8, SIZE, is_red, "cleared to red it is not red") &&
-             gni_is_color(p, 8, 0, 8, SIZE, is_blue, "blue is not blue");
+             gni_is_color(p, 8, 0, 8, SIZE, is_blue, "blue is not blue") && adds_steps(p, top);
     }
     drop(p, &o);
     return ok;
@@ -104,22 +128,22 @@ static int holds_color(gni_proofs *p, GLenum format, GLenum type)
 
 static int holds_rgba8(gni_proofs *p)
 {
-    return holds_color(p, GL_RGBA, GL_UNSIGNED_BYTE);
+    return holds_color(p, GL_RGBA, GL_UNSIGNED_BYTE, 255);
 }
 
 static int holds_rgba4(gni_proofs *p)
 {
-    return holds_color(p, GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4);
+    return holds_color(p, GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4, 15);
 }
 
 static int holds_rgb5a1(gni_proofs *p)
 {
-    return holds_color(p, GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1);
+    return holds_color(p, GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1, 31);
 }
 
 static int holds_rgb565(gni_proofs *p)
 {
-    return holds_color(p, GL_RGB, GL_UNSIGNED_SHORT_5_6_5);
+    return holds_color(p, GL_RGB, GL_UNSIGNED_SHORT_5_6_5, 31);
 }
 
 /* Depth hides, and stencil counts what it hid. */

@@ -1,10 +1,14 @@
-// flat.frag - one colour; while volumes are counted no colour is written.
+// flat.frag - one colour, or one a side; while volumes are counted in a stencil no colour is written.
 //
 // COUNTED no uniform: drivers keep a copy of all that a fragment shader reads for each draw between which it changes
+// FACED   u_color for fronts, u_back for backs
 // SIDED   one side of triangles only: u_side 1 for fronts, -1 for backs. Read in main() alone: some drivers break
 //         gl_FrontFacing elsewhere
 #ifndef COUNTED
 uniform mediump vec4 u_color;
+#endif
+#ifdef FACED
+uniform mediump vec4 u_back;
 #endif
 #ifdef SIDED
 uniform mediump float u_side;
@@ -18,6 +22,8 @@ void main()
 #endif
 #ifdef COUNTED
     gl_FragColor = vec4(0.0);
+#elif defined(FACED)
+    gl_FragColor = gl_FrontFacing ? u_color : u_back;
 #else
     gl_FragColor = u_color;
 #endif

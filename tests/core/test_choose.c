@@ -106,8 +106,53 @@ static void the_chain_goes_down_step_by_step(void **state)
 
     f.scene.target.advertised &= ~(1u << GN_CAN_STENCIL);
     f.scene.target.proven &= ~(1u << GN_CAN_STENCIL);
+    assert_int_equal(plan(), GN_OK); /* no masks in textures for a host that does not read them */
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "signed");
+    assert_int_equal(f.plan->mask, GN_MASK_ALPHA);
+    says("count makes its mask in a texture, which the host does not read");
+
+    f.scene.reads_masks = 1;
+    assert_int_equal(plan(), GN_OK);
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "count");
+    assert_int_equal(f.plan->mask, GN_MASK_TEXTURE);
+    assert_true(f.plan->lights[0].color.both_sides && f.plan->lights[0].color.limit == 255);
+    says("stencil needs stencil, which is not offered");
+
+    HIDE(GN_CAN_FRONT_FACING);
+    assert_int_equal(plan(), GN_OK);
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "count/one-sided");
+    assert_true(!f.plan->lights[0].color.both_sides && !f.plan->lights[0].color.discard);
+    HIDE(GN_CAN_FBO_RGBA8);
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->image.format, GN_FORMAT_RGB565);
+    assert_int_equal(f.plan->lights[0].color.limit, 31);
+
+    HIDE(GN_CAN_FBO_RGB565);
+    HIDE(GN_CAN_FBO_RGB5A1);
+    HIDE(GN_CAN_FBO_RGBA4);
+    assert_int_equal(plan(), GN_OK);
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "signed");
+    assert_int_equal(f.plan->lights[0].color.place, GN_PLACE_ALPHA);
+    assert_int_equal(f.plan->lights[0].color.limit, 127);
+    says("count needs framebuffer objects: fbo-rgba8 is hidden");
+
+    HIDE(GN_CAN_BLEND_SUBTRACT);
+    assert_int_equal(plan(), GN_OK);
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "alpha");
+    assert_int_equal(f.plan->lights[0].color.limit, 8);
+    says("signed needs blend-subtract, which is hidden");
+
+    HIDE(GN_CAN_ALPHA);
+    assert_int_equal(plan(), GN_OK);
+    assert_string_equal(gn_plan_method_name(f.plan, 0), "screen");
+    assert_int_equal(f.plan->lights[0].color.place, GN_PLACE_COLOR);
+    f.scene.target.red_bits = 5;
+    assert_int_equal(plan(), GN_OK);
+    assert_int_equal(f.plan->lights[0].color.limit, 5);
+
+    HIDE(GN_CAN_BLEND_ROUNDING);
     assert_int_equal(plan(), GN_E_DEVICE);
-    assert_non_null(strstr(gn_message(test_context), "stencil, which is not offered"));
+    assert_non_null(strstr(gn_message(test_context), "stencil, which is not offered, and none without"));
 }
 
 static void one_sided_may_be_asked_for(void **state)

@@ -41,10 +41,14 @@ static void a_frame_has_its_steps(void **state)
         gn_step_kind kind;
         gn_draw draw;
         uint32_t light;
-    } expected[] = {{GN_STEP_CLEAR, GN_DRAW_NOTHING, 0},   {GN_STEP_DRAW, GN_DRAW_AMBIENT, 0},
-                    {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 0}, {GN_STEP_DRAW, GN_DRAW_LIGHT, 0},
-                    {GN_STEP_ZERO, GN_DRAW_NOTHING, 1},    {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 1},
-                    {GN_STEP_DRAW, GN_DRAW_LIGHT, 1},      {GN_STEP_DRAW, GN_DRAW_FINAL, 0}};
+    } expected[] = {{GN_STEP_CLEAR, GN_DRAW_NOTHING, GN_NO_LIGHT},
+                    {GN_STEP_DRAW, GN_DRAW_AMBIENT, GN_NO_LIGHT},
+                    {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 0},
+                    {GN_STEP_DRAW, GN_DRAW_LIGHT, 0},
+                    {GN_STEP_ZERO, GN_DRAW_NOTHING, 1},
+                    {GN_STEP_VOLUMES, GN_DRAW_NOTHING, 1},
+                    {GN_STEP_DRAW, GN_DRAW_LIGHT, 1},
+                    {GN_STEP_DRAW, GN_DRAW_FINAL, GN_NO_LIGHT}};
     test_frame f;
     void *memory;
     const gn_plan *plan;

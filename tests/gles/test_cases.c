@@ -39,7 +39,12 @@ static void masks_are_the_same(void **state)
             stage_pose(s, 0, 0);
             test_random_view(&loaded, &rng);
             for (int m = 0; m < 2; m++) {
-                const stage_wish wish = {m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, 0, 1, light, 1, 1, 0, 0.0, ~0u, 0};
+                const stage_wish wish = {.method = m ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL,
+                                         .casting = 1,
+                                         .first_light = light,
+                                         .light_count = 1,
+                                         .unbounded = 1,
+                                         .without = ~0u};
 
                 assert_int_equal(stage_plan(s, &wish, message), 0);
                 assert_true(stage_draw_mask(s, light, message) && platform_read_back(s->platform, rgba[m]));

@@ -116,7 +116,8 @@ static void check_driver(const char *kind, const char *gallium)
     static const double distances[] = {1.3, 2, 10, 1000};
     static uint8_t lit[WIDTH * HEIGHT], visible[WIDTH * HEIGHT], classes[WIDTH * HEIGHT], rgba[4 * WIDTH * HEIGHT],
         facing[4 * WIDTH * HEIGHT];
-    const stage_options options = {kind, WIDTH, HEIGHT, 1.0, 24, 8, NULL, 0.0, NULL, 0, 0.0};
+    const stage_options options = {
+        .platform = kind, .width = WIDTH, .height = HEIGHT, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
     const stage_wish bare = {.method = GN_METHOD_ZFAIL, .light_count = 1, .unbounded = 1};
     const stage_wish shadowed = {.method = GN_METHOD_ZFAIL, .casting = 1, .light_count = 1, .unbounded = 1};
     const truth_options tracing = {WIDTH, HEIGHT, 24, {0, 0}};

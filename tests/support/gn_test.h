@@ -14,7 +14,7 @@
 #define TEST_EVERYTHING ((1u << GN_CAPABILITY_COUNT) - 1)
 #define TEST_TARGET(width, height)                                                                                     \
     {                                                                                                                  \
-        width, height, 8, 8, 8, 8, 24, 8, 0, 23, TEST_EVERYTHING, TEST_EVERYTHING, 0                                   \
+        width, height, 8, 8, 8, 8, 24, 8, 24, 0, 0, 0, 23, TEST_EVERYTHING, TEST_EVERYTHING, 0                         \
     }
 
 /* A port that counts live bytes and calls, and refuses every allocation from the one numbered fail_at on (0: never). */

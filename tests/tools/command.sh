@@ -64,7 +64,10 @@ refuses 2 "GNOMON_HIDE: no capability" probe
 refuses 2 "GNOMON_HIDE: no capability" render $scenes/cube_point.gltf -o "$tmp/x.png"
 unset GNOMON_HIDE
 refuses 2 "(auto/one-sided)" render $scenes/cube_point.gltf -o "$tmp/x.png" --method auto/one-sided
-refuses 3 "method stencil needs stencil, which is hidden" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil
+refuses 3 "method stencil needs stencil, which is hidden" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil --method stencil
+refuses 3 "none without a stencil is possible" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil,fbo-rgba8,fbo-rgba4,fbo-rgb5a1,fbo-rgb565,blend-subtract,blend-rounding
+refuses 2 "(dark)" render $scenes/cube_point.gltf -o "$tmp/x.png" --shade dark
+refuses 2 "(8,8,8)" render $scenes/cube_point.gltf -o "$tmp/x.png" --bits 8,8,8
 refuses 2 "a value is missing" render $scenes/cube_point.gltf -o
 refuses 1 "none.gltf" render "$tmp/none.gltf" -o "$tmp/x.png"
 refuses 1 "cannot be written" render $scenes/cube_point.gltf --size 16x16 -o "$tmp/no/such/x.png"
@@ -136,7 +139,7 @@ p = json.load(open(\"$tmp/t.json\"))
 l = p[\"lights\"][0]
 assert l[\"reach\"] < 3.1 and l[\"scissor\"][2] <= 64 and l[\"layers\"] > 0 and l[\"stencil\"][\"bits\"] + l[\"stencil\"][\"patch_bits\"] == 8
 assert [o[\"skip\"] for o in l[\"objects\"]].count(\"exempt\") == 1 and p[\"warnings\"] == []'"
-ok "a warning before the frame" sh -c "$gnomon render $scenes/near_tiny_wide.gltf --size 64x48 -o $tmp/w.png 2>&1 | grep -q 'four steps of 24 bits of depth are larger than a pixel'"
+ok "a warning before the frame" sh -c "$gnomon render $scenes/near_tiny_wide.gltf --size 64x48 -o $tmp/w.png 2>&1 | grep -q 'four steps of 24 bits of depth are larger than half a pixel'"
 ok "probe says how many layers" sh -c "$gnomon probe --platform egl | grep -q 'stencil  *possible; 255 layers at once, more in batches'"
 ok "soft lights" "$gnomon" render $scenes/cube_point.gltf -o "$tmp/soft.png" --size 160x120 --soft 16:0.3 --report "$tmp/s.json"
 ok "are many" sh -c "[ \$(grep -c '\"method\"' $tmp/s.json) = 16 ]"
@@ -147,6 +150,12 @@ refuses 2 "(16)" render $scenes/cube_point.gltf -o "$tmp/x.png" --soft 16
 refuses 2 "(0:1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --soft 0:1
 refuses 2 "(4:-1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --soft 4:-1
 refuses 2 "a mask is of one light" render $scenes/cube_point.gltf --mask-dir "$tmp/x" --soft 4:1
+for m in count signed alpha screen; do
+    ok "$m draws a mask" sh -c "$gnomon render $scenes/cube_point.gltf --size 160x120 --method $m --mask-dir $tmp/$m-masks && [ -s $tmp/$m-masks/light0.png ]"
+done
+ok "without a stencil it is counted in an image" sh -c "$gnomon render $scenes/cube_point.gltf --size 160x120 --hide stencil --explain | grep -q 'count: the best that is possible here: stencil needs stencil, which is hidden.*counted in an image'"
+ok "a target of 565 without stencil and alpha" sh -c "$gnomon render $scenes/cube_point.gltf --size 160x120 --bits 5,6,5,0,16,0 --report $tmp/565.json -o $tmp/565.png 2> /dev/null && grep -q '\"alpha\":[[:space:]]*0' $tmp/565.json && grep -q '\"mask\":[[:space:]]*\"texture\"' $tmp/565.json"
+ok "the report has the traffic that is expected" grep -q traffic_bytes_estimated "$tmp/565.json"
 refuses 2 "(-1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --importance -1
 ok "welded edges say what may be off" sh -c "$gnomon render $scenes/pile_of_8.gltf --size 64x48 --weld-angle 10 --explain | grep -q 'may be off by up to 0'"
 ok "proxies too" sh -c "$gnomon render $scenes/pile_of_8.gltf --size 64x48 --proxy 500 --explain | grep -q 'may be off by up to 0'"

@@ -70,7 +70,9 @@ static int refuse(stage **out, stage *s, int status)
 
 int stage_open(stage **out, scene *given, const stage_options *options, char message[SCENE_MESSAGE])
 {
-    const platform_desc wanted = {options->width,      options->height,      8, 8, 8, 8,
+    static const int eight[4] = {8, 8, 8, 8};
+    const int *bits = options->color_bits ? options->color_bits : eight;
+    const platform_desc wanted = {options->width,      options->height,      bits[0], bits[1], bits[2], bits[3],
                                   options->depth_bits, options->stencil_bits};
     stage *s = calloc(1, sizeof *s);
     gn_port port = gn_port_libc();
@@ -355,6 +357,10 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
     frame.one_sided = wish->one_sided;
     frame.blend_once = wish->blend_once;
     frame.least_light = wish->least_light;
+    frame.reads_masks = 1;
+    frame.lights_per_pass = wish->lights_per_pass ? wish->lights_per_pass : s->shader_lights;
+    frame.shade = wish->shade;
+    frame.merges_lights = wish->merges_lights;
     frame.without = wish->without;
     frame.cache = wish->keeps ? s->cache : NULL;
     size = gn_plan_bound(&frame);

@@ -15,7 +15,7 @@ typedef struct stage_program {
     GLuint name; /* 0: not made yet */
     GLint clip, world, normal, base, flat, ambient, emits, emissive, cutoff, shininess, specular, metallic, two_sided,
         texture;
-    GLint light_position, light_color, light_axis, light_cone;
+    GLint light_position, light_color, light_axis, light_cone, mask, channels;
 } stage_program;
 
 /* What a program does beyond placing vertices: an index into stage.programs. */
@@ -23,8 +23,9 @@ enum {
     STAGE_TEXTURED = 1,
     STAGE_CUT = 2,
     STAGE_FLAT = 4,
-    STAGE_LIGHT_SHIFT = 3,
-    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 3
+    STAGE_MASKED = 8, /* under masks in a texture */
+    STAGE_LIGHT_SHIFT = 4,
+    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 4
 };
 
 /* Part of a range that 16-bit indices reach. */
@@ -96,6 +97,7 @@ typedef struct stage_options {
     gn_shadow_cache_desc cache;
     double weld_angle;        /* of meshes: see gn_mesh_desc */
     uint32_t proxy_triangles; /* what has more casts by a mesh of about so many; 0: all cast themselves */
+    const int *color_bits;    /* [4] of the target; NULL: 8 each */
 } stage_options;
 
 /* Opens a context and uploads the scene. Returns 0, or an exit status of the command (1 or 3) with a message; *out
@@ -117,6 +119,9 @@ typedef struct stage_wish {
     double least_light;
     unsigned without; /* of gn_measure */
     int keeps;        /* shadows from frame to frame, in the stage's cache */
+    gn_shade shade;
+    int merges_lights;
+    uint32_t lights_per_pass; /* under a mask in a texture; 0: as many as the shader can */
 } stage_wish;
 
 /* Returns 0, or an exit status of the command (1 or 3) with a message. */
@@ -153,11 +158,14 @@ typedef enum stage_pass { STAGE_PASS_SOLID, STAGE_PASS_BLEND } stage_pass;
 typedef struct stage_look {
     int ambient;                       /* with ambient and emitted light */
     uint32_t first_light, light_count; /* in the scene */
-    const float *flat;                 /* one colour instead, or NULL */
-    int receivers;                     /* 1: objects that receive; 0: the rest; -1: all */
-    int facing_light;                  /* only triangles whose seen side looks at this light; -1: all */
-    int lit_by;                        /* only objects that this light of the plan may light; -1: all */
-    int backs;                         /* after the fronts the backs of objects that say they are drawn */
+    const uint32_t *picked;            /* not those in a row, but first_light + picked[i]; NULL: in a row */
+    uint32_t picked_count;
+    uint32_t mask, channel; /* GL's name of their masks' texture, 0 for none; of what is flat its channel */
+    const float *flat;      /* one colour instead, or NULL */
+    int receivers;          /* 1: objects that receive; 0: the rest; -1: all */
+    int facing_light;       /* only triangles whose seen side looks at this light; -1: all */
+    int only_lit;           /* only objects that a light of the plan in `picked` may light */
+    int backs;              /* after the fronts the backs of objects that say they are drawn */
 } stage_look;
 
 void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look);

@@ -12,12 +12,13 @@
 
 #define AMBIENT 0.1f
 
-static void set_lights(stage *s, const stage_program *p, uint32_t first, uint32_t count)
+static void set_lights(stage *s, const stage_program *p, const stage_look *look)
 {
+    const uint32_t count = look->light_count;
     float position[STAGE_LIGHTS][4], color[STAGE_LIGHTS][3], axis[STAGE_LIGHTS][4], cone[STAGE_LIGHTS][2];
 
     for (uint32_t i = 0; i < count; i++) {
-        const stage_light *l = &s->shading[first + i];
+        const stage_light *l = &s->shading[look->first_light + (look->picked ? look->picked[i] : i)];
 
         memcpy(position[i], l->shader_position, sizeof position[i]);
         memcpy(color[i], l->color, sizeof color[i]);
@@ -52,6 +53,16 @@ static void set_material(stage *s, const stage_program *p, const scene_material 
     gl->glUniform1f(p->two_sided, m->double_sided ? 1.0f : 0.0f);
     if (look->flat)
         gl->glUniform4fv(p->flat, 1, look->flat);
+    if (look->mask) {
+        float channels[4] = {0, 0, 0, 0};
+
+        channels[look->channel] = 1.0f;
+        gl->glActiveTexture(GL_TEXTURE1);
+        gl->glBindTexture(GL_TEXTURE_2D, look->mask);
+        gl->glUniform1i(p->mask, 1);
+        if (look->flat)
+            gl->glUniform4fv(p->channels, 1, channels);
+    }
     if (m->texture != SCENE_NONE) {
         gl->glActiveTexture(GL_TEXTURE0);
         gl->glBindTexture(GL_TEXTURE_2D, s->textures[m->texture]);
@@ -159,6 +170,7 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
         const scene_material *material = &s->scene->materials[m->batches[b].material];
         const unsigned kind = (material->texture != SCENE_NONE ? STAGE_TEXTURED : 0u) |
                               (material->alpha == SCENE_MASK ? STAGE_CUT : 0u) | (look->flat ? STAGE_FLAT : 0u) |
+                              (look->mask ? STAGE_MASKED : 0u) |
                               (look->flat ? 0u : look->light_count << STAGE_LIGHT_SHIFT);
         const stage_program *p;
 
@@ -172,7 +184,7 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
         set_material(s, p, material, look);
         set_object(s, p, instance, object);
         if (!look->flat && look->light_count)
-            set_lights(s, p, look->first_light, look->light_count);
+            set_lights(s, p, look);
         draw_batch(s, m, &m->batches[b], material, object->flags, look);
     }
 }
@@ -233,9 +245,13 @@ static void draw_blended(stage *s, const stage_look *look)
     s->gl->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
-static int is_lit(const stage *s, int light, size_t instance)
+/* By any of the lights. */
+static int is_lit(const stage *s, const stage_look *look, size_t instance)
 {
-    return s->plan->casters[(size_t)light * s->plan->object_count + stage_drawn_object(s, instance)].is_lit;
+    for (uint32_t i = 0; i < look->picked_count; i++)
+        if (s->plan->casters[(size_t)look->picked[i] * s->plan->object_count + stage_drawn_object(s, instance)].is_lit)
+            return 1;
+    return 0;
 }
 
 void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look)
@@ -248,6 +264,6 @@ void stage_draw_objects(stage *s, stage_pass pass, const stage_look *look)
     }
     for (size_t i = 0; i < count; i++)
         if ((look->receivers < 0 || look->receivers == s->scene->instances[i].receives) &&
-            (look->lit_by < 0 || is_lit(s, look->lit_by, i)))
+            (!look->only_lit || is_lit(s, look, i)))
             draw_object(s, i, pass, look);
 }

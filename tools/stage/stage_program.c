@@ -11,12 +11,15 @@
 
 static GLuint compile(const gn_gl *gl, GLenum type, const char *defines, const char *text)
 {
-    const char *const parts[3] = {
-        "#version 100\n", type == GL_VERTEX_SHADER ? "precision highp float;\n" GN_GLSL_POSITION : defines, text};
+    const char *const parts[4] = {"#version 100\n", defines,
+                                  type == GL_VERTEX_SHADER
+                                      ? "precision highp float;\n" GN_GLSL_POSITION GN_GLSL_MASK_VERTEX
+                                      : GN_GLSL_MASK_FRAGMENT,
+                                  text};
     const GLuint shader = gl->glCreateShader(type);
     GLint ok = 0;
 
-    gl->glShaderSource(shader, 3, parts, NULL);
+    gl->glShaderSource(shader, 4, parts, NULL);
     gl->glCompileShader(shader);
     gl->glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (!ok) {
@@ -86,6 +89,8 @@ static void locate(const gn_gl *gl, stage_program *p)
         {&p->light_color, "u_light_color"},
         {&p->light_axis, "u_light_axis"},
         {&p->light_cone, "u_light_cone"},
+        {&p->mask, "gn_mask_texture"},
+        {&p->channels, "u_channels"},
     };
 
     for (size_t i = 0; i < sizeof uniforms / sizeof uniforms[0]; i++)
@@ -101,10 +106,11 @@ stage_program *stage_use(stage *s, unsigned kind)
 
         snprintf(defines, sizeof defines,
                  "#define LIGHTS %u\n#define TEXTURED %d\n#define CUT %d\n#define FLAT %d\n#define FROM_BEHIND %s\n"
-                 "#define PRECISION %s\n",
+                 "#define PRECISION %s\n%s",
                  kind >> STAGE_LIGHT_SHIFT, !!(kind & STAGE_TEXTURED), !!(kind & STAGE_CUT), !!(kind & STAGE_FLAT),
                  gn_target_can(&s->target, GN_CAN_FRONT_FACING) ? "!gl_FrontFacing" : "(dot(n, v) < 0.0)",
-                 gn_target_can(&s->target, GN_CAN_FRAGMENT_HIGHP) ? "highp" : "mediump");
+                 gn_target_can(&s->target, GN_CAN_FRAGMENT_HIGHP) ? "highp" : "mediump",
+                 kind & STAGE_MASKED ? "#define GN_MASKED\n" : "");
         p->name = link(s->gl, defines, gni_shader_surface_vert, gni_shader_surface_frag);
         if (!p->name)
             return NULL;

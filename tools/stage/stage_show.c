@@ -108,7 +108,7 @@ static void add_fragments(stage *s, uint32_t first, uint32_t count)
 void stage_draw_layers(stage *s)
 {
     static const float one[4] = {0, 1.0f / 255.0f, 0, 0};
-    const stage_look look = {0, 0, 0, one, -1, -1, -1, 0};
+    const stage_look look = {.flat = one, .receivers = -1, .facing_light = -1};
 
     over_the_frame(s, GL_ONE, GL_ONE);
     s->gl->glDisable(GL_DEPTH_TEST);

@@ -16,9 +16,46 @@ static int begin(stage *s, char message[SCENE_MESSAGE])
 /* Everything transparent, lit by all lights without shadows: it casts none, and masks are of what is behind it. */
 static void draw_blended(stage *s, uint32_t first_light, uint32_t light_count)
 {
-    const stage_look look = {1, first_light, light_count, NULL, -1, -1, -1, 0};
+    const stage_look look = {
+        .ambient = 1, .first_light = first_light, .light_count = light_count, .receivers = -1, .facing_light = -1};
 
     stage_draw_objects(s, STAGE_PASS_BLEND, &look);
+}
+
+/* Every opaque object and all lights, as many in a pass as the shader takes; the state for the first is set. */
+static void draw_all_lit(stage *s, uint32_t first_light, uint32_t count, int backs)
+{
+    const uint32_t group = s->shader_lights, end = first_light + count;
+    stage_look look = {.ambient = 1,
+                       .first_light = first_light,
+                       .light_count = count < group ? count : group,
+                       .receivers = -1,
+                       .facing_light = -1,
+                       .backs = backs};
+
+    stage_draw_objects(s, STAGE_PASS_SOLID, &look);
+    s->gl->glDepthMask(GL_FALSE);
+    s->gl->glEnable(GL_BLEND);
+    s->gl->glBlendFunc(GL_ONE, GL_ONE);
+    s->gl->glDepthFunc(GL_EQUAL);
+    look.ambient = look.backs = 0;
+    for (look.first_light += group; look.first_light < end; look.first_light += group) {
+        look.light_count = end - look.first_light < group ? end - look.first_light : group;
+        stage_draw_objects(s, STAGE_PASS_SOLID, &look);
+    }
+}
+
+static void draw_depth(stage *s)
+{
+    static const float black[4] = {0, 0, 0, 0};
+    const stage_look look = {.flat = black, .receivers = -1, .facing_light = -1, .backs = 1};
+
+    stage_draw_objects(s, STAGE_PASS_SOLID, &look);
+}
+
+static uint32_t mask_of(const stage *s, const gn_step *step)
+{
+    return s->plan->mask == GN_MASK_TEXTURE && step->receivers ? gn_gles_mask(s->gles, step->mask) : 0;
 }
 
 int stage_draw_lit(stage *s, uint32_t first_light, char message[SCENE_MESSAGE])
@@ -29,19 +66,32 @@ int stage_draw_lit(stage *s, uint32_t first_light, char message[SCENE_MESSAGE])
     if (!begin(s, message))
         return 0;
     while (gn_gles_next(s->gles, &step)) {
-        stage_look look = {0, first_light + step.light, 1, NULL, step.receivers, -1, (int)step.light, 0};
+        const stage_look ambient = {.ambient = 1, .receivers = -1, .facing_light = -1, .backs = 1};
+        const stage_look light = {.first_light = first_light,
+                                  .light_count = step.light_count,
+                                  .picked = step.lights,
+                                  .picked_count = step.light_count,
+                                  .mask = mask_of(s, &step),
+                                  .receivers = step.receivers,
+                                  .facing_light = -1,
+                                  .only_lit = 1};
 
-        if (step.draw == GN_DRAW_FINAL) {
+        switch (step.draw) {
+        case GN_DRAW_DEPTH:
+            draw_depth(s);
+            break;
+        case GN_DRAW_AMBIENT:
+            stage_draw_objects(s, STAGE_PASS_SOLID, &ambient);
+            break;
+        case GN_DRAW_LIT:
+            draw_all_lit(s, first_light, s->plan->light_count, 1);
+            break;
+        case GN_DRAW_LIGHT:
+            stage_draw_objects(s, STAGE_PASS_SOLID, &light);
+            break;
+        default:
             draw_blended(s, first_light, s->plan->light_count);
-            continue;
         }
-        if (step.draw == GN_DRAW_AMBIENT) {
-            look.ambient = 1;
-            look.light_count = 0;
-            look.receivers = look.lit_by = -1;
-            look.backs = 1;
-        }
-        stage_draw_objects(s, STAGE_PASS_SOLID, &look);
     }
     return 1;
 }
@@ -56,18 +106,24 @@ static int draw_flat(stage *s, uint32_t first_light, const float surface[4], con
     if (!begin(s, message))
         return 0;
     while (gn_gles_next(s->gles, &step)) {
-        const int is_light = step.draw == GN_DRAW_LIGHT;
-        const stage_look look = {0,
-                                 0,
-                                 0,
-                                 is_light ? lit : surface,
-                                 is_light ? step.receivers : -1,
-                                 is_light ? (int)(first_light + step.light) : -1,
-                                 is_light ? (int)step.light : -1,
-                                 !is_light};
+        const stage_look all = {.flat = surface, .receivers = -1, .facing_light = -1, .backs = 1};
 
-        if (step.draw != GN_DRAW_FINAL)
-            stage_draw_objects(s, STAGE_PASS_SOLID, &look);
+        if (step.draw == GN_DRAW_DEPTH)
+            draw_depth(s);
+        else if (step.draw == GN_DRAW_AMBIENT)
+            stage_draw_objects(s, STAGE_PASS_SOLID, &all);
+        for (uint32_t i = 0; i < step.light_count; i++) {
+            const stage_look one = {.flat = lit,
+                                    .picked = &step.lights[i],
+                                    .picked_count = 1,
+                                    .mask = mask_of(s, &step),
+                                    .channel = i,
+                                    .receivers = step.receivers,
+                                    .facing_light = (int)(first_light + step.lights[i]),
+                                    .only_lit = 1};
+
+            stage_draw_objects(s, STAGE_PASS_SOLID, &one);
+        }
     }
     return 1;
 }
@@ -92,8 +148,6 @@ void stage_draw_plain(stage *s)
 {
     const gn_gl *gl = s->gl;
     const uint32_t count = s->plan->light_count;
-    const uint32_t group = s->shader_lights;
-    stage_look look = {1, 0, count < group ? count : group, NULL, -1, -1, -1, 0};
 
     gl->glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
     gl->glClearDepthf((GLfloat)s->plan->clear_depth);
@@ -101,15 +155,7 @@ void stage_draw_plain(stage *s)
     gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     gl->glEnable(GL_DEPTH_TEST);
     gl->glDepthFunc(GL_LESS);
-    stage_draw_objects(s, STAGE_PASS_SOLID, &look);
-    gl->glDepthMask(GL_FALSE);
-    gl->glEnable(GL_BLEND);
-    gl->glBlendFunc(GL_ONE, GL_ONE);
-    gl->glDepthFunc(GL_EQUAL);
-    for (look.ambient = 0, look.first_light = group; look.first_light < count; look.first_light += group) {
-        look.light_count = count - look.first_light < group ? count - look.first_light : group;
-        stage_draw_objects(s, STAGE_PASS_SOLID, &look);
-    }
+    draw_all_lit(s, 0, count, 0);
     gl->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl->glDepthFunc(GL_LESS);
     draw_blended(s, 0, count);

@@ -4,6 +4,7 @@
 // TEXTURED     the base colour has a texture
 // CUT          alphaMode MASK: cut below u_cutoff in every pass
 // FLAT         one colour instead of shading
+// GN_MASKED    lights of a pass have masks in a texture (gnomon_gles.h)
 // FROM_BEHIND  the back of the face is seen
 // PRECISION    highp where there is one
 //
@@ -11,6 +12,9 @@
 precision PRECISION float;
 uniform vec4 u_base;
 uniform vec4 u_flat;
+#if FLAT && defined(GN_MASKED)
+uniform vec4 u_channels;   // of the mask: that which u_flat is under
+#endif
 uniform vec3 u_ambient;    // a share of the base colour
 uniform float u_emits;
 uniform vec3 u_emissive;
@@ -46,9 +50,13 @@ void main()
 #endif
 #if FLAT
     gl_FragColor = u_flat;
+#ifdef GN_MASKED
+    gl_FragColor *= dot(gn_mask(), u_channels);
+#endif
 #else
     vec3 color = u_ambient * base.rgb + u_emits * u_emissive;
 #if LIGHTS
+    vec4 mask = gn_mask();
     vec3 n = normalize(v_normal);
     vec3 v = normalize(-v_position);
     if (u_two_sided > 0.5 && FROM_BEHIND)
@@ -65,7 +73,7 @@ void main()
         float cone = clamp(dot(-l, u_light_axis[i].xyz) * u_light_cone[i].x + u_light_cone[i].y, 0.0, 1.0);
         float shine = pow(max(dot(n, normalize(l + v)), 0.0), u_shininess) * (u_shininess + 8.0) * 0.125;
         vec3 reflected = base.rgb * (1.0 - u_metallic) + mix(vec3(0.04), base.rgb, u_metallic) * u_specular * shine;
-        color += step(0.0, facing) * facing * falloff * cone * cone * u_light_color[i] * reflected;
+        color += mask[i] * step(0.0, facing) * facing * falloff * cone * cone * u_light_color[i] * reflected;
     }
 #endif
     gl_FragColor = vec4(color, base.a);

@@ -14,6 +14,7 @@ varying lowp vec4 v_color;
 void main()
 {
     gl_Position = gn_position(u_clip, a_position);
+    gn_mask_place(gl_Position);
     v_position = (u_world * vec4(a_position, 1.0)).xyz;
     v_normal = normalize(u_normal * a_normal); // of any scale; fragments may be half floats
     v_uv = a_uv;

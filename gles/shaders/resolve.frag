@@ -1,0 +1,19 @@
+// resolve.frag - black where a count says shadow; where it says lit, nothing.
+//
+// u_weights  times the count's channels, in levels: their sum is u_level where a pixel is lit. Whole numbers up to 255:
+//            half floats have them
+#ifdef GL_FRAGMENT_PRECISION_HIGH
+varying highp vec2 v_at;
+#else
+varying mediump vec2 v_at;
+#endif
+uniform lowp sampler2D u_texture;
+uniform mediump vec4 u_weights;
+uniform mediump float u_level;
+
+void main()
+{
+    if (abs(dot(texture2D(u_texture, v_at), u_weights) - u_level) < 0.5)
+        discard;
+    gl_FragColor = vec4(0.0);
+}
