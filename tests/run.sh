@@ -51,6 +51,14 @@ table "all scenes" truth ${TRUTH_ARGS:-}
 table "the extremes" extremes --extremes --size 160x120
 table "the extremes in 16 bits of depth" extremes16 --extremes --size 160x120 --depth 16
 table "small scenes in 16 bits of depth" truth16 --size 160x120 --depth 16 --drivers llvmpipe
+without_stencil=count,count-565,count-two,signed,signed-fbo,alpha,screen
+table "counts in colour" color --size 160x120 --ways $without_stencil
+table "counts in colour, the extremes" color-extremes --extremes --size 160x120 --drivers llvmpipe,softpipe --ways $without_stencil
+table "counts in colour, a target of 565 without stencil and alpha" color-565 --size 160x120 --drivers llvmpipe,osmesa \
+    --bits 5,6,5,0,16,0 --ways $without_stencil
+table "counts in colour, a target without alpha" color-rgb --size 160x120 --drivers llvmpipe --bits 8,8,8,0,24,0 --ways $without_stencil
+table "counts in colour, a target without stencil" color-rgba --size 160x120 --drivers llvmpipe,osmesa --bits 8,8,8,8,24,0 \
+    --ways $without_stencil
 # shellcheck disable=SC2046 # scene by scene
 if without_leaks "$build/tests/bench/bench_stencil" $(awk '{print $1}' build/scenes/scenes.txt) > "$build/stencil.csv" 2> "$build/stencil.err"; then
     echo "ok stencil costs no more than z-fail"

@@ -3,6 +3,7 @@
 #include "frame.h"
 #include "platform.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #define SIZE 32
@@ -182,6 +183,13 @@ static void check_step(const gn_step *step)
         assert_int_equal(s.arrays[i], 0);
 }
 
+/* Undoes disturb(), but for what the library touches. */
+static void make_fresh(void)
+{
+    gl->glEnable(GL_DITHER);
+    gl->glActiveTexture(GL_TEXTURE0);
+}
+
 static gn_target described(void)
 {
     gn_target t;
@@ -231,6 +239,94 @@ static void the_promised_state_holds(void **state)
     for (int i = 0; i < 16; i++)
         assert_int_equal(after.arrays[i], 0);
     test_frame_drop(&f, gles);
+}
+
+/* In a step of a plan that counts in colour. */
+static void check_color_step(const gn_step *step, const gn_plan *plan, GLfloat target)
+{
+    const char *const where = gn_plan_method_name(plan, 0);
+    const int is_after_depth = plan->mask == GN_MASK_TEXTURE && plan->image.format == GN_FORMAT_NONE;
+    snapshot s;
+
+    take(&s);
+    expect(&s, GL_DITHER, 1, where);
+    expect(&s, GL_STENCIL_TEST, 0, where);
+    expect(&s, GL_CULL_FACE, 0, where);
+    expect(&s, GL_POLYGON_OFFSET_FILL, 0, where);
+    expect(&s, GL_BLEND_EQUATION_RGB, GL_FUNC_ADD, where);
+    expect(&s, GL_BLEND_EQUATION_ALPHA, GL_FUNC_ADD, where);
+    expect(&s, GL_COLOR_WRITEMASK, step->draw != GN_DRAW_DEPTH, where);
+    if (step->draw == GN_DRAW_DEPTH && plan->image.format != GN_FORMAT_NONE)
+        assert_true(value_of(&s, GL_FRAMEBUFFER_BINDING) != target);
+    else
+        expect(&s, GL_FRAMEBUFFER_BINDING, target, where);
+    if (step->draw == GN_DRAW_AMBIENT) {
+        expect(&s, GL_DEPTH_FUNC, is_after_depth ? GL_EQUAL : GL_LESS, where);
+        expect(&s, GL_DEPTH_WRITEMASK, !is_after_depth, where);
+        expect(&s, GL_BLEND, 0, where);
+    }
+    if (step->draw == GN_DRAW_LIGHT) {
+        expect(&s, GL_DEPTH_FUNC, GL_EQUAL, where);
+        expect(&s, GL_BLEND_DST_RGB, GL_ONE, where);
+        expect(&s, GL_BLEND_SRC_RGB, plan->mask == GN_MASK_ALPHA && step->receivers ? GL_DST_ALPHA : GL_ONE, where);
+    }
+}
+
+/* Every way to count in colour, and stencils taken to a texture; and each way to use the masks. */
+static void the_promised_state_holds_in_colour(void **state)
+{
+    static const struct {
+        gn_method method;
+        uint32_t hidden;
+        gn_shade shade;
+    } ways[] = {
+        {GN_METHOD_COUNT, 0, GN_SHADE_ADDITIVE},  {GN_METHOD_COUNT, 1u << GN_CAN_FRONT_FACING, GN_SHADE_BLACK},
+        {GN_METHOD_SIGNED, 0, GN_SHADE_ADDITIVE}, {GN_METHOD_SIGNED, 1u << GN_CAN_ALPHA, GN_SHADE_ATTENUATE},
+        {GN_METHOD_ALPHA, 0, GN_SHADE_ATTENUATE}, {GN_METHOD_ALPHA, 1u << GN_CAN_BLEND_MINMAX, GN_SHADE_ATTENUATE},
+        {GN_METHOD_SCREEN, 0, GN_SHADE_ADDITIVE}, {GN_METHOD_STENCIL, 0, GN_SHADE_ADDITIVE}};
+
+    (void)state;
+    for (size_t way = 0; way < sizeof ways / sizeof ways[0]; way++) {
+        snapshot fresh, before, after;
+        gn_light lights[3];
+        test_frame f;
+        gn_step step;
+
+        make_fresh();
+        take(&fresh);
+        assert_int_equal(test_frame_make(&f, context, gles, described()), GN_OK);
+        memcpy(lights, f.lights, 2 * sizeof lights[0]);
+        lights[2] = lights[0];
+        f.scene.lights = lights;
+        f.scene.light_count = 3;
+        f.scene.reads_masks = f.scene.merges_lights = 1;
+        f.scene.method = ways[way].method;
+        f.scene.shade = ways[way].shade;
+        f.scene.target.hidden |= ways[way].hidden;
+        f.memory = realloc(f.memory, gn_plan_bound(&f.scene));
+        f.size = gn_plan_bound(&f.scene);
+        assert_int_equal(gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan), GN_OK);
+        disturb();
+        take(&before);
+        assert_int_equal(gn_gles_begin(gles, f.plan), GN_OK);
+        while (gn_gles_next(gles, &step)) {
+            if (ways[way].method != GN_METHOD_STENCIL)
+                check_color_step(&step, f.plan, value_of(&fresh, GL_FRAMEBUFFER_BINDING));
+            disturb();
+        }
+        take(&after);
+        for (int i = 0; i < STATES; i++) {
+            const int is_texture = states[i].name == GL_ACTIVE_TEXTURE && f.plan->mask == GN_MASK_TEXTURE;
+            const int is_fresh = states[i].touched || states[i].name == GL_DITHER || is_texture;
+
+            if (states[i].name == GL_VIEWPORT || states[i].name == GL_SCISSOR_BOX)
+                continue;
+            if (memcmp(after.values[i], is_fresh ? fresh.values[i] : before.values[i], sizeof after.values[i]) != 0)
+                fail_msg("way %lu: on exit state 0x%04x is %g", (unsigned long)way, states[i].name,
+                         (double)after.values[i][0]);
+        }
+        test_frame_drop(&f, gles);
+    }
 }
 
 /* Proofs draw, bind, enable: the host sees none of it. Everything is away from its default, and bound. */
@@ -343,9 +439,9 @@ static int close_it(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_promised_state_holds),
-                                       cmocka_unit_test(the_target_is_described),
-                                       cmocka_unit_test(proofs_leave_no_trace)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_promised_state_holds), cmocka_unit_test(the_promised_state_holds_in_colour),
+        cmocka_unit_test(the_target_is_described), cmocka_unit_test(proofs_leave_no_trace)};
 
     return cmocka_run_group_tests_name("state, egl", tests, open_egl, close_it) +
            cmocka_run_group_tests_name("state, osmesa", tests, open_osmesa, close_it);

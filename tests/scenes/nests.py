@@ -112,3 +112,36 @@ def helix(s):
     s.thing(Shape(points, triangles), s.material(OCHRE, both=True))
     s.sun((0.0, 1.0, 0.0))
     s.eye((1.4, 3.4, 4.0), (0.1, 0.3, 0.0), 42.0)
+
+
+SLATS, PITCH = 300, 0.1
+
+
+def slat(i):
+    return block((-0.6, 1.0, -PITCH * i - 0.04), (0.6, 1.3, -PITCH * i))
+
+
+def along_the_slats(s):
+    """Slats side by side under a sun that stands almost above: no two volumes meet, but the eye looks
+    along the row under them, through all, at a wall that one block shadows."""
+    far = -PITCH * SLATS - 1.0
+    s.thing(quad((-3.0, -1.0, far), (3.0, -1.0, far), (3.0, 3.0, far), (-3.0, 3.0, far)), s.material(STONE))
+    s.block_at(cube(0.5), RED, (0.3, 1.1, far + 0.6), 30.0)
+    s.sun((0.25, 1.0, 0.3))
+    s.eye((0.0, 0.45, 2.5), (0.0, 0.4, far), 5.0)
+
+
+@scene("zpass", "extreme", "the eye is before all shadows")
+def slats(s):
+    """300 of them in one mesh: more fronts and more backs over a pixel than a channel counts."""
+    s.thing(joined(*[slat(i) for i in range(SLATS)]), s.material(OCHRE))
+    along_the_slats(s)
+
+
+@scene("zpass", "extreme", "the eye is before all shadows")
+def slats_apart(s):
+    """300 casters: batches, though none lies in another's shadow."""
+    material = s.material(OCHRE)
+    for i in range(SLATS):
+        s.thing(slat(i), material)
+    along_the_slats(s)

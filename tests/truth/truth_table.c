@@ -1,15 +1,17 @@
 /* truth_table.c - masks of scenes against the ray-traced truth: for every driver here and every way to draw them.
  *
- *     truth_table [--size WxH] [--drivers LIST] [--depth BITS] [--extremes] [--pixels] SCENES_DIR [SCENE...]
+ *     truth_table [--size WxH] [--drivers LIST] [--depth BITS] [--bits R,G,B,A,D,S] [--ways LIST] [--extremes]
+ *                 [--pixels] SCENES_DIR [SCENE...]
  *
  * A row for each scene, driver, light and way: z-fail and z-pass as the driver can; z-fail with capabilities hidden,
  * which must be the same bits (one-sided, saturating, both; and stencil by McGuire's cases) or as right (ended; under a
- * far plane of the camera's own finite, finite-end; unless refused).
+ * far plane of the camera's own finite, finite-end; unless refused). With --ways those that it names, and only these
+ * count without a stencil: where a plan warns of its range, or that it cuts a caster, wrong pixels are no failure.
  *
  * SCENES_DIR holds the .gltf files and scenes.txt, which says of each scene whether z-pass is right there (zpass,
  * nozpass) and whether a slow rasteriser draws it (small, large) or it is one of the extremes, which --extremes draws
- * instead of the others: by z-fail and stencil, on every driver. --depth asks for as many bits of depth: where the plan
- * warns that they are too few, wrong pixels are no failure. Drivers: llvmpipe and softpipe through EGL, osmesa,
+ * instead of the others: by z-fail and stencil, on every driver, or by --ways. --depth and --bits ask for as many bits:
+ * what needs others is left out, and where the plan warns that they are too few, wrong pixels are no failure. Drivers: llvmpipe and softpipe through EGL, osmesa,
  * and zink over SwiftShader where Debian's chromium-common is installed; softpipe takes small scenes.
  *
  * A rasteriser that draws a shared edge twice, or not at all, at some pixel cannot count volumes there (Everitt 2002,
@@ -79,15 +81,23 @@ static const way ways[] = {
     {"ended", GN_METHOD_ZFAIL, BIT(GN_CAN_W0), 0, 0, 0, 0, 0},
     {"finite", GN_METHOD_ZFAIL, 0, 0, 1, 1, 0, 0},
     {"finite-end", GN_METHOD_ZFAIL, BIT(GN_CAN_DEPTH_CLAMP), 0, 1, 1, 0, 0},
+    {"count", GN_METHOD_COUNT, 0, 0, 0, 0, 0, 0},
+    {"count-565", GN_METHOD_COUNT, BIT(GN_CAN_FBO_RGBA8), 0, 0, 0, 0, 0},
+    {"count-two", GN_METHOD_COUNT, BIT(GN_CAN_FRONT_FACING), 0, 0, 0, 1, 0},
+    {"signed", GN_METHOD_SIGNED, 0, 0, 0, 0, 0, 0},
+    {"signed-fbo", GN_METHOD_SIGNED, BIT(GN_CAN_ALPHA), 0, 0, 0, 0, 0},
+    {"alpha", GN_METHOD_ALPHA, 0, 0, 0, 0, 0, 0},
+    {"screen", GN_METHOD_SCREEN, 0, 0, 0, 0, 0, 0},
 };
 enum { DRIVERS = sizeof drivers / sizeof drivers[0], WAYS = sizeof ways / sizeof ways[0] };
 enum { IS_DRAWN = 4 }; /* in masks, beside lit 1 and visible 2 */
 
 typedef struct job {
     char name[64];
-    int zpass_is_right, is_large, extremes;
-    int depth_bits;
-    int list_pixels; /* print each wrong one */
+    int zpass_is_right, is_large, extremes, is_poor;
+    int bits[6];      /* red, green, blue, alpha, depth, stencil */
+    int list_pixels;  /* print each wrong one */
+    const char *ways; /* those that are drawn, with commas between; NULL: all */
     uint32_t width, height;
     size_t lights;
     uint8_t *lit, *visible, *classes; /* [lights][pixels] of the truth */
@@ -125,11 +135,32 @@ static double far_of(const scene *s)
     return 2.0 * farthest;
 }
 
+/* A whole word of a list with commas between. */
+static int is_wanted(const char *list, const char *name)
+{
+    const size_t length = strlen(name);
+
+    for (const char *at = list; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL)
+        if (strncmp(at, name, length) == 0 && (at[length] == ',' || at[length] == '\0'))
+            return 1;
+    return 0;
+}
+
+/* What the plan says beforehand: a warning, or of a count in colour that a caster is cut. */
+static uint8_t is_warned(const gn_plan *plan, gn_method method)
+{
+    return plan->warnings != 0 || (method >= GN_METHOD_COUNT && plan->lights[0].cut_casters > 0);
+}
+
 /* In a process of its own. */
 static int draw_masks(const job *j, scene *loaded, int d)
 {
-    const stage_options options = {
-        drivers[d].platform, j->width, j->height, 0.0, j->depth_bits, 8, NULL, 0.0, NULL, 0, 0.0, {0, 0.0}, 0.0, 0};
+    const stage_options options = {.platform = drivers[d].platform,
+                                   .width = j->width,
+                                   .height = j->height,
+                                   .depth_bits = j->bits[4],
+                                   .stencil_bits = j->bits[5],
+                                   .color_bits = j->bits};
     char message[SCENE_MESSAGE] = "";
     uint8_t *rgba = malloc(4 * pixels_of(j));
     stage *s;
@@ -146,21 +177,30 @@ static int draw_masks(const job *j, scene *loaded, int d)
         stage_pose(s, 0.0, 0.0);
     for (uint32_t light = 0; !failed && light < j->lights; light++)
         for (int w = 0; !failed && w < WAYS; w++) {
-            const stage_wish wish = {ways[w].method, 0, 1, light, 1, 1, 0, 0.0, ways[w].without, 0};
+            const stage_wish wish = {.method = ways[w].method,
+                                     .casting = 1,
+                                     .first_light = light,
+                                     .light_count = 1,
+                                     .unbounded = 1,
+                                     .without = ways[w].without};
             const size_t at = place_of(j, d, w, light);
             int status;
 
-            if (j->extremes && ways[w].method != GN_METHOD_STENCIL && w > 0)
+            if (j->extremes && ways[w].method != GN_METHOD_STENCIL && w > 0 && !j->ways)
+                continue;
+            if (j->ways ? !is_wanted(j->ways, ways[w].name) : ways[w].method >= GN_METHOD_COUNT)
                 continue;
             if (ways[w].finite && (loaded->camera.orthographic || loaded->camera.zfar > 0.0))
                 continue;
             s->finite_far = ways[w].finite ? far_of(loaded) : 0.0;
             s->target.hidden = ways[w].hidden;
             status = stage_plan(s, &wish, message);
+            if (status == 3 && j->is_poor) /* the target lacks what this way needs */
+                continue;
             if (status == 3 && ways[w].may_end && strstr(message, "no end of the volume")) /* refused in words */
                 continue;
             if (status == 0)
-                j->warned[((size_t)d * WAYS + (size_t)w) * MOST_LIGHTS + light] = s->plan->warnings != 0;
+                j->warned[((size_t)d * WAYS + (size_t)w) * MOST_LIGHTS + light] = is_warned(s->plan, ways[w].method);
             failed = status != 0 || !stage_draw_mask(s, light, message) || !platform_read_back(s->platform, rgba);
             for (size_t i = 0; !failed && i < pixels_of(j); i++)
                 j->drawn[at + i] = (uint8_t)((rgba[4 * i] > 127) | (rgba[4 * i + 1] > 127) << 1 | IS_DRAWN);
@@ -180,7 +220,7 @@ static int draw_masks(const job *j, scene *loaded, int d)
 /* The truth knows no lists: what is exempt in a light casts not while that light is traced. */
 static truth *trace_light(job *j, scene *loaded, truth *common, size_t light, char message[SCENE_MESSAGE])
 {
-    const truth_options options = {j->width, j->height, j->depth_bits, {0, 0}};
+    const truth_options options = {j->width, j->height, j->bits[4], {0, 0}};
     const scene_light *l = &loaded->lights[light];
     const size_t at = light * pixels_of(j);
     truth *t = common, *own = NULL;
@@ -232,7 +272,7 @@ static int compare(const job *j, int d, int w, size_t light)
     size_t certain = 0, depth_limited = 0, wrong = 0, cracks = 0;
     int few;
 
-    if (!(mask[0] & IS_DRAWN) && j->extremes)
+    if (!(mask[0] & IS_DRAWN) && (j->extremes || j->is_poor || j->ways || ways[w].method >= GN_METHOD_COUNT))
         return 0;
     if (!(mask[0] & IS_DRAWN)) {
         printf("%-18s %-9s %-10s %5lu  not drawn\n", j->name, drivers[d].name, ways[w].name, (unsigned long)light);
@@ -334,9 +374,10 @@ static int is_named(const char *name, int count, char **names)
 
 int main(int count, char **arguments)
 {
-    const char *wanted_drivers = "llvmpipe,osmesa,softpipe,zink";
+    const char *wanted_drivers = "llvmpipe,osmesa,softpipe,zink", *wanted_ways = NULL;
     unsigned width = 640, height = 480;
-    int list_pixels = 0, extremes = 0, depth_bits = 24, failures = 0, scenes = 0, at = 1;
+    int bits[6] = {8, 8, 8, 8, 24, 8};
+    int list_pixels = 0, extremes = 0, failures = 0, scenes = 0, at = 1;
     char path[1024], line[512];
     FILE *list;
 
@@ -347,9 +388,14 @@ int main(int count, char **arguments)
         else if (strcmp(arguments[at], "--extremes") == 0)
             extremes = 1;
         else if (strcmp(arguments[at], "--depth") == 0)
-            depth_bits = atoi(arguments[++at]);
+            bits[4] = atoi(arguments[++at]);
+        else if (strcmp(arguments[at], "--bits") == 0 && sscanf(arguments[at + 1], "%d,%d,%d,%d,%d,%d", &bits[0],
+                                                                &bits[1], &bits[2], &bits[3], &bits[4], &bits[5]) == 6)
+            at++;
         else if (strcmp(arguments[at], "--drivers") == 0)
             wanted_drivers = arguments[++at];
+        else if (strcmp(arguments[at], "--ways") == 0)
+            wanted_ways = arguments[++at];
         else if (strcmp(arguments[at], "--size") != 0 || sscanf(arguments[++at], "%ux%u", &width, &height) != 2)
             return fprintf(stderr, "truth_table: what is %s?\n", arguments[at]), 2;
     if (at >= count)
@@ -371,8 +417,10 @@ int main(int count, char **arguments)
         j.zpass_is_right = strcmp(zpass, "zpass") == 0;
         j.is_large = strcmp(size, "large") == 0;
         j.extremes = extremes;
-        j.depth_bits = depth_bits;
+        memcpy(j.bits, bits, sizeof bits);
+        j.is_poor = bits[3] == 0 || bits[5] == 0;
         j.list_pixels = list_pixels;
+        j.ways = wanted_ways;
         j.width = width;
         j.height = height;
         scenes++;

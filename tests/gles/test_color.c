@@ -1,0 +1,238 @@
+/* test_color.c - counts in colour on a real driver: the same bits as a stencil's in the same kind of target, one pass for
+ * several lights like as many passes, frames that are dimmed, and no memory from frame to frame. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gn_test.h"
+#include "stage.h"
+
+#define WIDTH  200
+#define HEIGHT 150
+
+static const char *const scenes[] = {"colours", "courtyard", "hall", "dim_lights", "offices"};
+enum { SCENES = sizeof scenes / sizeof scenes[0], BYTES = 4 * WIDTH * HEIGHT };
+
+/* Everything but ends, patches and the like, which move pixels on borders; masks in textures as they come. */
+#define PLAIN (~(unsigned)GN_MEASURE_MASKS)
+
+static scene loaded;
+static stage *s;
+
+static void open_scene(const char *name)
+{
+    const stage_options options = {
+        .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
+    char path[128], message[SCENE_MESSAGE] = "";
+
+    snprintf(path, sizeof path, "build/scenes/%s.gltf", name);
+    if (!scene_load(&loaded, path, NULL, message) || !scene_ensure_view(&loaded, (double)WIDTH / HEIGHT, NULL) ||
+        stage_open(&s, &loaded, &options, message) != 0)
+        fail_msg("%s: %s", name, message);
+    stage_pose(s, 0, 0);
+}
+
+static void close_scene(void)
+{
+    stage_close(s);
+    scene_free(&loaded);
+}
+
+static stage_wish wish_for(gn_method method, unsigned without)
+{
+    const stage_wish wish = {.method = method,
+                             .casting = 1,
+                             .light_count = (uint32_t)loaded.light_count,
+                             .unbounded = 1,
+                             .without = without};
+
+    return wish;
+}
+
+/* Shares of lights, or the lit frame. */
+static void draw(const stage_wish *wish, uint32_t hidden, int is_lit, uint8_t rgba[BYTES])
+{
+    char message[SCENE_MESSAGE] = "";
+
+    s->target.hidden = hidden;
+    if (stage_plan(s, wish, message) != 0 ||
+        !(is_lit ? stage_draw_lit(s, 0, message) : stage_draw_shares(s, message)) ||
+        !platform_read_back(s->platform, rgba))
+        fail_msg("method %d: %s", (int)wish->method, message);
+    assert_int_equal(s->gl->glGetError(), GL_NO_ERROR);
+}
+
+/* Pixels with a channel of colour that differs by more than `slack`. */
+static int count_differing(const uint8_t *a, const uint8_t *b, int slack)
+{
+    int count = 0;
+
+    for (int i = 0; i < BYTES; i += 4)
+        count += abs(a[i] - b[i]) > slack || abs(a[i + 1] - b[i + 1]) > slack || abs(a[i + 2] - b[i + 2]) > slack;
+    return count;
+}
+
+/* Framebuffer objects against framebuffer objects, the window against the window: they round borders their own way. */
+static void counts_have_the_bits_of_a_stencil(void **state)
+{
+    static const struct {
+        gn_method method;
+        uint32_t hidden;
+        int in_image, may_warn;
+    } ways[] = {{GN_METHOD_COUNT, 0, 1, 0},
+                {GN_METHOD_COUNT, 1u << GN_CAN_FRONT_FACING, 1, 0},
+                {GN_METHOD_SIGNED, 1u << GN_CAN_ALPHA, 1, 0},
+                {GN_METHOD_SIGNED, 0, 0, 0},
+                {GN_METHOD_ALPHA, 0, 0, 1},
+                {GN_METHOD_SCREEN, 0, 0, 1}};
+    static uint8_t right[2][BYTES], rgba[BYTES];
+    int compared[6] = {0};
+
+    (void)state;
+    for (int sc = 0; sc < SCENES; sc++) {
+        stage_wish wish;
+
+        open_scene(scenes[sc]);
+        wish = wish_for(GN_METHOD_STENCIL, ~0u);
+        draw(&wish, 0, 0, right[0]);
+        assert_int_equal(s->plan->mask, GN_MASK_STENCIL);
+        if (loaded.light_count > 2) {
+            wish = wish_for(GN_METHOD_STENCIL, PLAIN);
+            wish.merges_lights = 1;
+            draw(&wish, 0, 0, right[1]);
+            assert_int_equal(s->plan->mask, GN_MASK_TEXTURE);
+        }
+        for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
+            if (ways[w].in_image && loaded.light_count < 3)
+                continue;
+            wish = wish_for(ways[w].method, ~0u);
+            draw(&wish, ways[w].hidden, 0, rgba);
+            if (ways[w].may_warn && s->plan->warnings & 1u << GN_WARN_RANGE)
+                continue;
+            compared[w]++;
+            if (count_differing(right[ways[w].in_image], rgba, 0) != 0)
+                fail_msg("%s: way %lu differs in %d pixels", scenes[sc], (unsigned long)w,
+                         count_differing(right[ways[w].in_image], rgba, 0));
+        }
+        close_scene();
+    }
+    for (int w = 0; w < 6; w++)
+        assert_true(compared[w] >= 3);
+}
+
+static void one_pass_adds_what_several_add(void **state)
+{
+    static const gn_method methods[] = {GN_METHOD_COUNT, GN_METHOD_SCREEN, GN_METHOD_STENCIL};
+    static uint8_t several[BYTES], one[BYTES];
+
+    (void)state;
+    for (int sc = 0; sc < SCENES; sc++)
+        for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
+            stage_wish wish;
+
+            open_scene(scenes[sc]);
+            wish = wish_for(methods[m], 0);
+            wish.merges_lights = 1;
+            draw(&wish, 0, 1, one);
+            assert_true(s->plan->mask_count > 0);
+            assert_true(s->plan->mask_count < loaded.light_count);
+            wish.lights_per_pass = methods[m] == GN_METHOD_STENCIL ? 2 : 1; /* one takes stencils to no texture */
+            draw(&wish, 0, 1, several);
+            assert_true(s->plan->mask_count * wish.lights_per_pass >= loaded.light_count);
+            if (count_differing(one, several, 2) != 0)
+                fail_msg("%s: %d pixels differ by more than 2 of 255", scenes[sc], count_differing(one, several, 2));
+            close_scene();
+        }
+}
+
+/* Every shadow leaves half, or nothing, of a frame that is lit as if nothing cast; whatever counts it. */
+static void shadows_dim_a_lit_frame(void **state)
+{
+    static const struct {
+        gn_method method;
+        uint32_t hidden;
+    } ways[] = {{GN_METHOD_SIGNED, 0},
+                {GN_METHOD_ALPHA, 0},
+                {GN_METHOD_ALPHA, 1u << GN_CAN_BLEND_MINMAX},
+                {GN_METHOD_SCREEN, 0}};
+    static uint8_t lit[BYTES], right[BYTES], rgba[BYTES];
+
+    (void)state;
+    open_scene("colours");
+    for (int shade = GN_SHADE_ATTENUATE; shade <= GN_SHADE_BLACK; shade++) {
+        stage_wish wish = wish_for(GN_METHOD_STENCIL, ~0u);
+        int dimmed = 0, kept = 0;
+
+        wish.light_count = 1;
+        wish.shade = (gn_shade)shade;
+        wish.casting = 0;
+        draw(&wish, 0, 1, lit);
+        wish.casting = 1;
+        draw(&wish, 0, 1, right);
+        for (int i = 0; i < BYTES; i++) {
+            const int left = shade == GN_SHADE_BLACK ? 0 : (lit[i] + 1) / 2;
+
+            if (i % 4 == 3)
+                continue;
+            dimmed += lit[i] > 20 && abs(right[i] - left) <= 1;
+            kept += lit[i] > 20 && right[i] == lit[i];
+            assert_true(abs(right[i] - left) <= 1 || right[i] == lit[i]);
+        }
+        assert_true(dimmed > 2000 && kept > 2000);
+        for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
+            wish.method = ways[w].method;
+            draw(&wish, ways[w].hidden, 1, rgba);
+            if (count_differing(right, rgba, 1) != 0)
+                fail_msg("shade %d, way %lu: %d pixels differ", shade, (unsigned long)w,
+                         count_differing(right, rgba, 1));
+        }
+    }
+    close_scene();
+}
+
+/* Alpha is 1 when the frame is done, as compositors want it. */
+static void alpha_is_left_full(void **state)
+{
+    static const gn_method methods[] = {GN_METHOD_SIGNED, GN_METHOD_ALPHA};
+    static uint8_t rgba[BYTES];
+
+    (void)state;
+    open_scene("colours");
+    for (int m = 0; m < 2; m++) {
+        const stage_wish wish = wish_for(methods[m], 0);
+
+        draw(&wish, 0, 1, rgba);
+        for (int i = 3; i < BYTES; i += 4)
+            assert_int_equal(rgba[i], 255);
+    }
+    close_scene();
+}
+
+static void frames_take_no_memory(void **state)
+{
+    static uint8_t rgba[BYTES];
+
+    (void)state;
+    open_scene("colours");
+    for (int m = GN_METHOD_STENCIL; m < GN_METHOD_TOTAL; m++) {
+        const stage_wish wish = wish_for((gn_method)m, 0);
+        uint64_t before;
+
+        draw(&wish, 0, 1, rgba);
+        before = s->allocations;
+        for (int frame = 0; frame < 3; frame++)
+            draw(&wish, 0, 1, rgba);
+        assert_int_equal(s->allocations, before);
+    }
+    close_scene();
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(counts_have_the_bits_of_a_stencil),
+                                       cmocka_unit_test(one_pass_adds_what_several_add),
+                                       cmocka_unit_test(shadows_dim_a_lit_frame), cmocka_unit_test(alpha_is_left_full),
+                                       cmocka_unit_test(frames_take_no_memory)};
+
+    return cmocka_run_group_tests_name("color", tests, NULL, NULL);
+}
