@@ -131,8 +131,9 @@ typedef struct gni_outline {
     uint32_t first, count, of_a_side; /* in the plan's indices, or the cache's */
 } gni_outline;
 
-#define GNI_COLUMNS     256 /* fragments.c: of the image */
+#define GNI_COLUMNS     1024 /* fragments.c: of the image */
 #define GNI_COLUMN_WAYS 4
+#define GNI_SECTORS     2048 /* of what a caster fills of the planes through eye and light */
 
 /* A plan while it is made. */
 typedef struct gni_draft {
@@ -169,9 +170,10 @@ typedef struct gni_draft {
     gni_casting piece;  /* of the volume at hand: those of one piece */
     uint32_t *order, *parent, *end, *ring;
     uint32_t *cheap_of;   /* [object_count] layers of each caster of the light at hand, a cheap bound */
-    int8_t *seen_caps[2]; /* fragments.c, of methods that count in colour; and so the next two */
+    int8_t *seen_cap;     /* fragments.c, of methods that count in colour; and so the next four */
     int32_t *seams[2];    /* [vertices of the largest caster] */
     int32_t (*columns)[2][GNI_COLUMNS + 1]; /* [GNI_COLUMN_WAYS] */
+    int32_t (*sectors)[GNI_SECTORS + 1];    /* [2] */
     uint32_t *tiles;                        /* [GNI_TILES^2] of the target: fragments of the batch at hand */
     uint8_t *draws;                         /* [light_count] of GNI_DRAWS_*: what the light adds to */
     uint32_t mask_count;                    /* lights that have a channel of a mask */
