@@ -47,7 +47,7 @@ static void place(double out[4], const gn_mesh *mesh, uint32_t vertex, const dou
 
 /* Planes through eye and light, by an angle about the axis; or, where all are parallel, by how far they are along. */
 typedef struct pencil {
-    double across[2][4]; /* two planes of it, at right angles; the second is not read where all are parallel */
+    double across[2][4];          /* two planes of it, at right angles; the second is not read where all are parallel */
     int are_parallel, goes_round; /* goes_round: the axis may pass through the caster */
     double middle, low, scale;
     int32_t (*differences)[SECTORS + 1]; /* [SIDES] by which way edges run */

@@ -169,9 +169,9 @@ typedef struct gni_draft {
     gni_layers *layers; /* NULL: nothing can nest too much; nor are there the six arrays that follow */
     gni_casting piece;  /* of the volume at hand: those of one piece */
     uint32_t *order, *parent, *end, *ring;
-    uint32_t *cheap_of;   /* [object_count] layers of each caster of the light at hand, a cheap bound */
-    int8_t *seen_cap;     /* fragments.c, of methods that count in colour; and so the next four */
-    int32_t *seams[2];    /* [vertices of the largest caster] */
+    uint32_t *cheap_of; /* [object_count] layers of each caster of the light at hand, a cheap bound */
+    int8_t *seen_cap;   /* fragments.c, of methods that count in colour; and so the next four */
+    int32_t *seams[2];  /* [vertices of the largest caster] */
     int32_t (*columns)[2][GNI_COLUMNS + 1]; /* [GNI_COLUMN_WAYS] */
     int32_t (*sectors)[GNI_SECTORS + 1];    /* [2] */
     uint32_t *tiles;                        /* [GNI_TILES^2] of the target: fragments of the batch at hand */

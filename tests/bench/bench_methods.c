@@ -49,10 +49,8 @@ static int by_value(const void *a, const void *b)
 
 static int draw(stage *s, int way, double *ms, char message[SCENE_MESSAGE])
 {
-    const stage_wish wish = {.method = ways[way].method,
-                             .casting = 1,
-                             .light_count = s->light_count,
-                             .merges_lights = ways[way].merges};
+    const stage_wish wish = {
+        .method = ways[way].method, .casting = 1, .light_count = s->light_count, .merges_lights = ways[way].merges};
     const double start = now_ms();
 
     s->target.hidden = ways[way].hidden;

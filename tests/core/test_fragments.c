@@ -99,25 +99,114 @@ static const gn_plan *make(gn_scene *scene, int may_refuse)
     return plan;
 }
 
-/* Soups, whose every triangle casts, and lights and eyes anywhere, in and behind volumes. */
+/* A scene of one mesh, one light, and the eye at a place, looking along -z. */
+typedef struct one {
+    gn_scene scene;
+    gn_object object;
+    gn_light light;
+    gn_mesh *mesh;
+} one;
+
+static void set_up(one *o, const test_mesh *m, gn_method method, const double eye[3])
+{
+    const gn_mesh_desc desc = test_desc(m);
+
+    memset(o, 0, sizeof *o);
+    assert_int_equal(gn_mesh_create(test_context, &desc, &o->mesh), GN_OK);
+    o->object.mesh = o->mesh;
+    o->object.flags = GN_CASTS;
+    gn_mat4_identity(o->object.model);
+    gn_mat4_identity(o->scene.camera.world);
+    memcpy(o->scene.camera.world + 12, eye, 3 * sizeof(double));
+    o->scene.camera.left = o->scene.camera.bottom = -0.7;
+    o->scene.camera.right = o->scene.camera.top = 0.7;
+    o->scene.camera.znear = 0.1;
+    o->scene.lights = &o->light;
+    o->scene.light_count = 1;
+    o->scene.objects = &o->object;
+    o->scene.object_count = 1;
+    o->scene.target = (gn_target)TEST_TARGET(64, 64);
+    o->scene.method = method;
+    o->scene.reads_masks = 1;
+}
+
+/* A quad with its corners at the ends of two edges from its middle. */
+static void add_quad(test_mesh *m, const double middle[3], const double u[3], const double v[3])
+{
+    static const int signs[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    uint32_t corners[4];
+
+    for (int i = 0; i < 4; i++) {
+        float at[3];
+
+        for (int k = 0; k < 3; k++)
+            at[k] = (float)(middle[k] + signs[i][0] * u[k] + signs[i][1] * v[k]);
+        corners[i] = test_add_vertex(m, at[0], at[1], at[2]);
+    }
+    test_add_triangle(m, corners[0], corners[1], corners[2]);
+    test_add_triangle(m, corners[0], corners[2], corners[3]);
+}
+
+/* Rows and stacks of sheets whose number a line can meet: in a row every volume by its sides; in a stack every cap; and
+ * sheets so large that all that is seen of their caps' borders is where the near plane cuts them. */
+static void as_many_as_sheets(void **state)
+{
+    enum { SHEETS = 40 };
+    static const double eye[3] = {0, 0, 0};
+    static const struct {
+        double first[3], pitch[3], u[3], v[3], sun[3];
+        unsigned parts;
+    } rows[] = {
+        {{0, 1, -2}, {0, 0, -0.2}, {0.8, 0, 0}, {0, 0.2, 0.01}, {0.1, 1, 0.05}, GN_SIDES},
+        {{0, -1, -5}, {0, -0.03, 0}, {1, 0, 0}, {0, 0, 1}, {0.3, 1, 0.4}, GN_LIGHT_CAP},
+        {{0.1, 0, -2}, {0.05, 0, 0}, {0, 30, 0}, {0.2, 0, 30}, {1, 0.1, 0.1}, GN_LIGHT_CAP},
+    };
+
+    (void)state;
+    for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++) {
+        static test_mesh m;
+        const gn_plan *plan;
+        uint32_t worst;
+        one o;
+
+        m.vertex_count = m.triangle_count = 0;
+        for (int i = 0; i < SHEETS; i++) {
+            double middle[3];
+
+            for (int k = 0; k < 3; k++)
+                middle[k] = rows[r].first[k] + i * rows[r].pitch[k];
+            add_quad(&m, middle, rows[r].u, rows[r].v);
+        }
+        set_up(&o, &m, GN_METHOD_COUNT, eye);
+        o.light.kind = GN_LIGHT_DIRECTIONAL;
+        memcpy(o.light.towards, rows[r].sun, sizeof o.light.towards);
+        plan = make(&o.scene, 0);
+        assert_int_equal(plan->lights[0].batches, 1);
+        assert_int_equal(plan->records[0].parts & rows[r].parts, rows[r].parts);
+        for (uint32_t s = 0; s < plan->step_count; s++)
+            if (plan->steps[s].kind == GN_STEP_VOLUMES) {
+                worst = worst_line(plan, &plan->steps[s]);
+                assert_true(worst >= SHEETS);
+                assert_true(worst <= plan->lights[0].fragments);
+                assert_true(plan->lights[0].fragments <= 2 * SHEETS + 2);
+            }
+        gn_mesh_destroy(o.mesh);
+    }
+}
+
+/* Boxes, closed and inside out, some open, and lights and eyes anywhere, in and behind volumes. */
 static void no_line_meets_more(void **state)
 {
+    static const gn_method methods[] = {GN_METHOD_COUNT, GN_METHOD_SIGNED, GN_METHOD_ALPHA};
     uint32_t tight = 0, batches = 0;
 
     (void)state;
     for (int round = 0; round < ROUNDS; round++) {
-        static const gn_method methods[] = {GN_METHOD_COUNT, GN_METHOD_SIGNED, GN_METHOD_ALPHA};
-        gn_scene scene;
-        gn_object object;
-        gn_light light;
-        gn_mesh *mesh;
         static test_mesh m;
-        gn_mesh_desc desc;
+        double eye[3];
         const gn_plan *plan;
+        one o;
 
-        memset(&scene, 0, sizeof scene);
-        memset(&object, 0, sizeof object);
-        memset(&light, 0, sizeof light);
         m.vertex_count = m.triangle_count = 0;
         for (int b = 0; b < 1 + round % 4; b++) {
             float low[3], high[3];
@@ -130,29 +219,15 @@ static void no_line_meets_more(void **state)
         }
         if (round % 3 == 0) /* open: its last triangles are gone, and all that are left cast */
             m.triangle_count -= 2;
-        desc = test_desc(&m);
-        assert_int_equal(gn_mesh_create(test_context, &desc, &mesh), GN_OK);
-        object.mesh = mesh;
-        gn_mat4_identity(object.model);
-        object.flags = GN_CASTS | (round % 5 ? GN_RECEIVES : 0u);
-        light.kind = round % 2 ? GN_LIGHT_POINT : GN_LIGHT_DIRECTIONAL;
         for (int k = 0; k < 3; k++)
-            light.position[k] = light.towards[k] = between(-4.0, 4.0);
-        gn_mat4_identity(scene.camera.world);
+            eye[k] = between(-3.0, 3.0) + (k == 2 ? 3.0 : 0.0);
+        set_up(&o, &m, methods[round % 3], eye);
+        o.object.flags |= round % 5 ? GN_RECEIVES : 0u;
+        o.light.kind = round % 2 ? GN_LIGHT_POINT : GN_LIGHT_DIRECTIONAL;
         for (int k = 0; k < 3; k++)
-            scene.camera.world[12 + k] = between(-3.0, 3.0) + (k == 2 ? 3.0 : 0.0);
-        scene.camera.left = scene.camera.bottom = -0.7;
-        scene.camera.right = scene.camera.top = 0.7;
-        scene.camera.znear = 0.1;
-        scene.lights = &light;
-        scene.light_count = 1;
-        scene.objects = &object;
-        scene.object_count = 1;
-        scene.target = (gn_target)TEST_TARGET(64, 64);
-        scene.target.hidden = round % 7 == 0 ? 1u << GN_CAN_W0 | 1u << GN_CAN_DEPTH_CLAMP : 0;
-        scene.method = methods[round % 3];
-        scene.reads_masks = 1;
-        plan = make(&scene, 1);
+            o.light.position[k] = o.light.towards[k] = between(-4.0, 4.0);
+        o.scene.target.hidden = round % 7 == 0 ? 1u << GN_CAN_W0 | 1u << GN_CAN_DEPTH_CLAMP : 0;
+        plan = make(&o.scene, 1);
         for (uint32_t s = 0; plan && s < plan->step_count; s++)
             if (plan->steps[s].kind == GN_STEP_VOLUMES) {
                 const uint32_t worst = worst_line(plan, &plan->steps[s]);
@@ -163,7 +238,7 @@ static void no_line_meets_more(void **state)
                 batches++;
                 tight += worst > 0 && plan->lights[0].fragments <= 3 * worst;
             }
-        gn_mesh_destroy(mesh);
+        gn_mesh_destroy(o.mesh);
     }
     assert_true(batches > ROUNDS / 3);
     assert_true(tight > batches / 4); /* a bound that is no bound would pass the rest */
@@ -211,7 +286,8 @@ static void fine_meshes_are_not_cut(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_line_meets_more), cmocka_unit_test(fine_meshes_are_not_cut)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(as_many_as_sheets), cmocka_unit_test(no_line_meets_more),
+                                       cmocka_unit_test(fine_meshes_are_not_cut)};
 
     return cmocka_run_group_tests_name("fragments", tests, test_open_context, test_close_context);
 }
