@@ -111,13 +111,14 @@ static int lay_out(gni_draft *d, arena *a)
         d->region = cut(a, 1, sizeof *d->region);
         d->ends = cut(a, 1, sizeof *d->ends);
     }
-    if (is_colored) {
+    if (is_colored)
+        d->tiles = cut(a, GNI_TILES * GNI_TILES, sizeof *d->tiles);
+    if (is_colored && all > 0) {
         d->seen_cap = cut(a, triangles, 1);
         for (int i = 0; i < 2; i++)
             d->seams[i] = cut(a, vertices, sizeof *d->seams[i]);
         d->sectors = cut(a, 2, sizeof *d->sectors);
         d->columns = cut(a, GNI_COLUMN_WAYS, sizeof *d->columns);
-        d->tiles = cut(a, GNI_TILES * GNI_TILES, sizeof *d->tiles);
     }
     if (all > limit) {
         d->layers = cut(a, 1, sizeof *d->layers);

@@ -82,7 +82,8 @@ def main():
 ## What is known of the reasons
 
 - softpipe keeps a tile's colours as floats until it writes the tile back: a value between two levels outlives the draw that
-  made it, so halving does not round. A `glFinish` between the draws makes it pass.
+  made it, and halves of 128 / 255 grow by 1 / 255 with each that is doubled again. Batches of alpha and screen hold too few for
+  that to matter (`tests/bench/bench_ranges.c`).
 - softpipe clamps each vertex to the depth range when it applies a polygon offset: under depth clamp, triangles that leave
   the range are tilted.
 - armhf llvmpipe on an emulated processor draws depth wrongly unless LP_NUM_THREADS=0. It is the one driver here on which
