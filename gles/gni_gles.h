@@ -147,6 +147,11 @@ void gni_draw_reader(gn_gles *g, const gn_step *step, gni_state state);
 /* Which faces a draw counts: both at once, else those that count up, then the others. */
 typedef enum gni_half { GNI_BOTH, GNI_RISING, GNI_FALLING } gni_half;
 
+/* Counts the records of one caster from first to end. */
+typedef void gni_count(gn_gles *g, uint32_t first, uint32_t end, gni_half half);
+/* volumes.c: a step's records, caster by caster, up first: what is on the way is one caster's only. */
+void gni_count_casters(gn_gles *g, const gn_step *step, int both_sides, gni_count *count);
+
 /* stencil.c: counts in the stencil of whatever is bound. */
 gni_state gni_stencil_light(const gn_plan *plan, const gn_plan_light *light, gni_state unmasked);
 /* Where the count is the light's, or is not (GL_NOTEQUAL): nothing else is set. */

@@ -195,24 +195,12 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, gni_half h)
         }
 }
 
-/* One-sided, a caster at a time: up first, so that counts which stop at the ends stray by one caster's layers only. */
 static void count_volumes(gn_gles *g, const gn_step *step)
 {
-    const gn_plan *plan = g->plan;
-    const gn_stencil_layout *layout = &plan->lights[step->light].stencil;
-    const uint32_t end = step->first_record + step->record_count;
+    const gn_stencil_layout *layout = &g->plan->lights[step->light].stencil;
 
     gni_begin_volumes(g, layout->discard ? &g->sided : &g->counted);
-    for (uint32_t i = step->first_record, next; i < end; i = next) {
-        for (next = i + 1; next < end && plan->records[next].object == plan->records[i].object;)
-            next++;
-        if (layout->two_sided) {
-            count_records(g, i, next, GNI_BOTH);
-        } else {
-            count_records(g, i, next, GNI_RISING);
-            count_records(g, i, next, GNI_FALLING);
-        }
-    }
+    gni_count_casters(g, step, layout->two_sided, count_records);
     gni_end_volumes(g);
 }
 

@@ -66,6 +66,23 @@ void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int tu
                        (const void *)((uintptr_t)first * sizeof(uint16_t)));
 }
 
+void gni_count_casters(gn_gles *g, const gn_step *step, int both_sides, gni_count *count)
+{
+    const gn_record *records = g->plan->records;
+    const uint32_t end = step->first_record + step->record_count;
+
+    for (uint32_t i = step->first_record, next; i < end; i = next) {
+        for (next = i + 1; next < end && records[next].object == records[i].object;)
+            next++;
+        if (both_sides) {
+            count(g, i, next, GNI_BOTH);
+        } else {
+            count(g, i, next, GNI_RISING);
+            count(g, i, next, GNI_FALLING);
+        }
+    }
+}
+
 void gni_end_volumes(gn_gles *g)
 {
     const gn_gl *gl = &g->gl;

@@ -127,24 +127,12 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, gni_half hal
         }
 }
 
-/* A caster at a time, up first: what is on the way is one caster's only. */
 static void count_volumes(gn_gles *g, const gn_step *step)
 {
-    const gn_plan *plan = g->plan;
-    const gn_color_layout *layout = &plan->lights[step->light].color;
-    const uint32_t end = step->first_record + step->record_count;
+    const gn_color_layout *layout = &g->plan->lights[step->light].color;
 
     gni_begin_volumes(g, layout->both_sides ? &g->faced : layout->discard ? &g->sided_color : &g->colored);
-    for (uint32_t i = step->first_record, next; i < end; i = next) {
-        for (next = i + 1; next < end && plan->records[next].object == plan->records[i].object;)
-            next++;
-        if (layout->both_sides) {
-            count_records(g, i, next, GNI_BOTH);
-        } else {
-            count_records(g, i, next, GNI_RISING);
-            count_records(g, i, next, GNI_FALLING);
-        }
-    }
+    gni_count_casters(g, step, layout->both_sides, count_records);
     gni_end_volumes(g);
 }
 

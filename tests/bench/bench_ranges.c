@@ -10,22 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "gnomon_gles.h"
-#include "platform.h"
+#include "device.h"
 
 enum { SIZE = 16, MOST = 300 };
 
 static const gn_gl *gl;
 static GLint color;
-
-static const struct {
-    const char *name;
-    GLenum format, type;
-    int bits[4];
-} formats[] = {{"rgba8", GL_RGBA, GL_UNSIGNED_BYTE, {8, 8, 8, 8}},
-               {"rgba4", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4, {4, 4, 4, 4}},
-               {"rgb5a1", GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1, {5, 5, 5, 1}},
-               {"rgb565", GL_RGB, GL_UNSIGNED_SHORT_5_6_5, {5, 6, 5, 0}}};
 
 static GLuint compile(GLenum kind, const char *text)
 {
@@ -115,17 +105,12 @@ static int run(const char *platform_name)
 {
     static const char *const channels[] = {"red", "green", "blue", "alpha"};
     static const float corners[] = {-1, -1, 3, -1, -1, 3};
-    const platform_desc wanted = {SIZE, SIZE, 8, 8, 8, 8, 24, 8};
-    char why[PLATFORM_MESSAGE];
-    platform *p = platform_open(platform_name, &wanted, why);
-    gn_context *context = NULL;
-    gn_gles *gles = NULL;
-    gn_gles_desc desc = {platform_get_proc, p, NULL};
+    test_device device;
     GLuint buffer;
 
-    if (!p || gn_context_create(NULL, &context) != GN_OK || gn_gles_create(context, &desc, &gles) != GN_OK)
-        return fprintf(stderr, "bench_ranges: %s: %s\n", platform_name, p ? gn_message(context) : why), 0;
-    gl = gn_gles_functions(gles);
+    if (test_open_device(&device, platform_name, SIZE))
+        return 0;
+    gl = device.gl;
     if (!make_program())
         return fprintf(stderr, "bench_ranges: the GL refuses a shader\n"), 0;
     gl->glGenBuffers(1, &buffer);
@@ -136,29 +121,24 @@ static int run(const char *platform_name)
     gl->glViewport(0, 0, SIZE, SIZE);
     gl->glDisable(GL_DITHER);
     gl->glEnable(GL_BLEND);
-    for (size_t f = 0; f < sizeof formats / sizeof formats[0]; f++) {
-        GLuint texture, framebuffer;
+    for (int f = 0; f < TEST_FORMATS; f++) {
+        const test_format *format = &test_formats[f];
+        const GLuint texture = test_make_texture(gl, format, SIZE);
+        GLuint framebuffer;
 
-        gl->glGenTextures(1, &texture);
-        gl->glBindTexture(GL_TEXTURE_2D, texture);
-        gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        gl->glTexImage2D(GL_TEXTURE_2D, 0, (GLint)formats[f].format, SIZE, SIZE, 0, formats[f].format, formats[f].type,
-                         NULL);
         gl->glGenFramebuffers(1, &framebuffer);
         gl->glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
         gl->glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
         for (int c = 0; c < 4; c++) {
-            const int top = (1 << formats[f].bits[c]) - 1;
+            const int top = (1 << format->bits[c]) - 1;
 
-            if (formats[f].bits[c] >= 4)
-                printf("%s,%s,%s,%d,%d,%d,%d\n", (const char *)gl->glGetString(GL_RENDERER), formats[f].name,
-                       channels[c], formats[f].bits[c], range_of_count(top, c),
-                       range_of(0, (top + 1) / 2, top, c), range_of(1, top, top, c));
+            if (format->bits[c] >= 4)
+                printf("%s,%s,%s,%d,%d,%d,%d\n", (const char *)gl->glGetString(GL_RENDERER), format->name, channels[c],
+                       format->bits[c], range_of_count(top, c), range_of(0, (top + 1) / 2, top, c),
+                       range_of(1, top, top, c));
         }
     }
-    gn_gles_destroy(gles);
-    gn_context_destroy(context);
-    platform_close(p);
+    test_close_device(&device);
     return 1;
 }
 

@@ -1,33 +1,18 @@
 /* test_formats.c - counts in colour in framebuffer objects of 8, 5 and 4 bits: masks are the same whatever the format, as
  * far as the plan says that its range reaches; and depth that the host lends. */
+#include "device.h"
 #include "frame.h"
-#include "gn_matrix.h"
 #include "plain_host.h"
-#include "platform.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define SIZE  64
-#define RGBA8 0x8058
+#define SIZE 64
 
 enum { BYTES = 4 * SIZE * SIZE };
 
-static platform *p;
-static gn_context *context;
-static gn_gles *gles;
-static const gn_gl *gl;
+static test_device device;
 static plain_host host;
-
-static const struct {
-    const char *name;
-    GLenum format, type;
-    int bits[4];
-} formats[] = {{"rgba8", GL_RGBA, GL_UNSIGNED_BYTE, {8, 8, 8, 8}},
-               {"rgba4", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4, {4, 4, 4, 4}},
-               {"rgb5a1", GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1, {5, 5, 5, 1}},
-               {"rgb565", GL_RGB, GL_UNSIGNED_SHORT_5_6_5, {5, 6, 5, 0}}};
-enum { FORMATS = sizeof formats / sizeof formats[0] };
 
 /* A host's target: a texture of the format and 16 bits of depth; both bound. */
 typedef struct object {
@@ -35,32 +20,31 @@ typedef struct object {
     gn_target target;
 } object;
 
-static void make_object(object *o, int format)
+static void make_object(object *o, const test_format *format)
 {
+    const gn_gl *gl = device.gl;
+
     gl->glGenFramebuffers(1, &o->framebuffer);
-    gl->glGenTextures(1, &o->texture);
     gl->glGenRenderbuffers(1, &o->depth);
-    gl->glBindTexture(GL_TEXTURE_2D, o->texture);
-    gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->glTexImage2D(GL_TEXTURE_2D, 0, (GLint)formats[format].format, SIZE, SIZE, 0, formats[format].format,
-                     formats[format].type, NULL);
-    gl->glBindTexture(GL_TEXTURE_2D, 0);
+    o->texture = test_make_texture(gl, format, SIZE);
     gl->glBindRenderbuffer(GL_RENDERBUFFER, o->depth);
     gl->glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, SIZE, SIZE);
     gl->glBindRenderbuffer(GL_RENDERBUFFER, 0);
     gl->glBindFramebuffer(GL_FRAMEBUFFER, o->framebuffer);
     gl->glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, o->texture, 0);
     gl->glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, o->depth);
-    assert_int_equal(gn_gles_describe_target(gles, SIZE, SIZE, NULL, &o->target), GN_OK);
+    assert_int_equal(gn_gles_describe_target(device.gles, SIZE, SIZE, NULL, &o->target), GN_OK);
     assert_int_equal(o->target.framebuffer, o->framebuffer);
     assert_int_equal(o->target.shared_depth, o->depth);
-    assert_int_equal(o->target.red_bits, formats[format].bits[0]);
-    assert_int_equal(o->target.alpha_bits, formats[format].bits[3]);
+    assert_int_equal(o->target.red_bits, format->bits[0]);
+    assert_int_equal(o->target.alpha_bits, format->bits[3]);
     assert_int_equal(o->target.depth_bits, 16);
 }
 
 static void drop_object(object *o)
 {
+    const gn_gl *gl = device.gl;
+
     gl->glBindFramebuffer(GL_FRAMEBUFFER, 0);
     gl->glDeleteFramebuffers(1, &o->framebuffer);
     gl->glDeleteTextures(1, &o->texture);
@@ -71,17 +55,18 @@ static void drop_object(object *o)
 static int draw(const object *o, gn_method method, uint32_t hidden, uint8_t lit[SIZE * SIZE], gn_plan *about)
 {
     static uint8_t rgba[BYTES];
+    const gn_gl *gl = device.gl;
     test_frame f;
     gn_result result;
 
-    result = test_frame_make(&f, context, gles, o->target);
+    result = test_frame_make(&f, device.context, device.gles, o->target);
     assert_true(result == GN_OK || result == GN_E_DEVICE); /* it plans a frame that reads no masks */
     f.scene.method = method;
     f.scene.reads_masks = 1;
     f.scene.target.hidden |= hidden;
     f.memory = realloc(f.memory, gn_plan_bound(&f.scene));
     f.size = gn_plan_bound(&f.scene);
-    result = gn_plan_make(context, &f.scene, f.memory, f.size, &f.plan);
+    result = gn_plan_make(device.context, &f.scene, f.memory, f.size, &f.plan);
     if (result == GN_OK) {
         gl->glBindFramebuffer(GL_FRAMEBUFFER, o->framebuffer);
         gl->glClearColor(0, 0, 0, 0);
@@ -96,7 +81,7 @@ static int draw(const object *o, gn_method method, uint32_t hidden, uint8_t lit[
         *about = *f.plan;
         about->lights = NULL;
     }
-    test_frame_drop(&f, gles);
+    test_frame_drop(&f, device.gles);
     return result == GN_OK;
 }
 
@@ -105,10 +90,11 @@ static void all_formats_have_the_same_masks(void **state)
     static const struct {
         gn_method method;
         uint32_t hidden;
-        int drawn[FORMATS];
+        int drawn[TEST_FORMATS];
     } ways[] = {{GN_METHOD_COUNT, 1u << GN_CAN_SHARED_DEPTH, {1, 1, 1, 1}},
                 {GN_METHOD_COUNT, 0, {1, 1, 1, 1}},
-                {GN_METHOD_COUNT, 1u << GN_CAN_FBO_RGBA8 | 1u << GN_CAN_FBO_RGB565 | 1u << GN_CAN_FBO_RGB5A1,
+                {GN_METHOD_COUNT,
+                 1u << GN_CAN_FBO_RGBA8 | 1u << GN_CAN_FBO_RGB565 | 1u << GN_CAN_FBO_RGB5A1,
                  {1, 1, 1, 1}}, /* an image of 4 bits */
                 {GN_METHOD_SIGNED, 0, {1, 1, 1, 1}},
                 {GN_METHOD_SIGNED, 1u << GN_CAN_ALPHA, {1, 1, 1, 1}},
@@ -118,10 +104,10 @@ static void all_formats_have_the_same_masks(void **state)
     int counts[3] = {0, 0, 0};
 
     (void)state;
-    for (int format = 0; format < FORMATS; format++) {
+    for (int format = 0; format < TEST_FORMATS; format++) {
         object o;
 
-        make_object(&o, format);
+        make_object(&o, &test_formats[format]);
         for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
             gn_plan about = {0};
             int differing = 0;
@@ -137,7 +123,7 @@ static void all_formats_have_the_same_masks(void **state)
             for (int i = 0; i < SIZE * SIZE; i++)
                 differing += right[i] != lit[i];
             if (differing)
-                fail_msg("%s, way %lu: %d pixels differ", formats[format].name, (unsigned long)w, differing);
+                fail_msg("%s, way %lu: %d pixels differ", test_formats[format].name, (unsigned long)w, differing);
         }
         drop_object(&o);
     }
@@ -148,18 +134,7 @@ static void all_formats_have_the_same_masks(void **state)
 
 static int open_on(const char *name)
 {
-    const platform_desc wanted = {SIZE, SIZE, 8, 8, 8, 8, 24, 8};
-    char message[PLATFORM_MESSAGE];
-
-    p = platform_open(name, &wanted, message);
-    if (!p || gn_context_create(NULL, &context) != GN_OK ||
-        gn_gles_create(context, &(gn_gles_desc){platform_get_proc, p, NULL}, &gles) != GN_OK ||
-        !plain_host_open(&host, gles)) {
-        print_error("%s\n", message);
-        return 1;
-    }
-    gl = gn_gles_functions(gles);
-    return 0;
+    return test_open_device(&device, name, SIZE) || !plain_host_open(&host, device.gles);
 }
 
 static int open_egl(void **state)
@@ -178,10 +153,7 @@ static int close_it(void **state)
 {
     (void)state;
     plain_host_close(&host);
-    gn_gles_destroy(gles);
-    gn_context_destroy(context);
-    platform_close(p);
-    return 0;
+    return test_close_device(&device);
 }
 
 int main(void)

@@ -1,14 +1,14 @@
 /* test_state.c - the GL state that gnomon_gles.h promises, on a real driver: all of it is read before, at each step,
  * and after, from a context whose every state was turned away from its default first. */
+#include "device.h"
 #include "frame.h"
-#include "platform.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 #define SIZE 32
 
-static platform *p;
+static test_device device;
 static gn_context *context;
 static gn_gles *gles;
 static const gn_gl *gl;
@@ -394,26 +394,21 @@ static void the_target_is_described(void **state)
     const gn_target t = described();
 
     (void)state;
-    assert_int_equal(t.stencil_bits, p->actual.stencil_bits);
-    assert_int_equal(t.depth_bits, p->actual.depth_bits);
-    assert_int_equal(t.alpha_bits, p->actual.alpha_bits);
+    assert_int_equal(t.stencil_bits, device.platform->actual.stencil_bits);
+    assert_int_equal(t.depth_bits, device.platform->actual.depth_bits);
+    assert_int_equal(t.alpha_bits, device.platform->actual.alpha_bits);
     assert_int_equal(t.red_bits, 8);
     assert_int_equal(t.samples, 0);
 }
 
 static int open_on(const char *name)
 {
-    const platform_desc wanted = {SIZE, SIZE, 8, 8, 8, 8, 24, 8};
-    char message[PLATFORM_MESSAGE];
+    const int failed = test_open_device(&device, name, SIZE);
 
-    p = platform_open(name, &wanted, message);
-    if (!p || gn_context_create(NULL, &context) != GN_OK ||
-        gn_gles_create(context, &(gn_gles_desc){platform_get_proc, p, NULL}, &gles) != GN_OK) {
-        print_error("%s\n", message);
-        return 1;
-    }
-    gl = gn_gles_functions(gles);
-    return 0;
+    context = device.context;
+    gles = device.gles;
+    gl = device.gl;
+    return failed;
 }
 
 static int open_egl(void **state)
@@ -431,10 +426,7 @@ static int open_osmesa(void **state)
 static int close_it(void **state)
 {
     (void)state;
-    gn_gles_destroy(gles);
-    gn_context_destroy(context);
-    platform_close(p);
-    return 0;
+    return test_close_device(&device);
 }
 
 int main(void)
