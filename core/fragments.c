@@ -10,6 +10,9 @@
  * there more than half of what one column of the image crosses of the border (sweep.c has this for layers and the light).
  * Columns run in several directions, and the least bound holds. Where the near plane cuts a cap, the cut is border too.
  *
+ * What stays of a caster, once both its sides are counted, is the layers of its shadow over the pixel: in the plane of the
+ * pencil these are no more than the silhouette edges that enter it, as many as run one way.
+ *
  * A volume is never more than the volumes of its casting triangles one by one, each convex: no more than these. */
 #include "gni_plan.h"
 
@@ -404,7 +407,7 @@ static uint32_t count_casting(const gn_mesh *mesh, const gni_casting *casting)
     return count;
 }
 
-uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting)
+uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting, uint32_t *stay)
 {
     const gn_camera *camera = &d->scene->camera;
     const gn_object *object = &d->scene->objects[v->object];
@@ -426,5 +429,6 @@ uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting
         sides = count_sides(d, &s, v->object, casting);
     if (s.parts & (GN_LIGHT_CAP | GN_DARK_CAP))
         caps = count_caps(d, &s, casting);
+    *stay = s.parts & GN_SIDES && sides < triangles ? sides : triangles;
     return sides < triangles && caps < triangles - sides ? sides + caps : triangles;
 }

@@ -174,12 +174,12 @@ typedef struct gni_draft {
     int32_t *seams[2];  /* [vertices of the largest caster] */
     int32_t (*columns)[2][GNI_COLUMNS + 1]; /* [GNI_COLUMN_WAYS] */
     int32_t (*sectors)[GNI_SECTORS + 1];    /* [2] */
-    uint32_t *tiles;                        /* [GNI_TILES^2] of the target: fragments of the batch at hand */
-    uint8_t *draws;                         /* [light_count] of GNI_DRAWS_*: what the light adds to */
-    uint32_t mask_count;                    /* lights that have a channel of a mask */
-    int image_is_used;                      /* something was counted in it */
-    gni_slot *slot;                         /* of the caster at hand in the cache; NULL: it is not kept */
-    int casting_is_known;                   /* d->casting is the slot's, or there is none */
+    uint32_t *tiles;      /* [GNI_TILES^2] of the target: what is in the levels of the batch at hand */
+    uint8_t *draws;       /* [light_count] of GNI_DRAWS_*: what the light adds to */
+    uint32_t mask_count;  /* lights that have a channel of a mask */
+    int image_is_used;    /* something was counted in it */
+    gni_slot *slot;       /* of the caster at hand in the cache; NULL: it is not kept */
+    int casting_is_known; /* d->casting is the slot's, or there is none */
     gni_choice choice;
     uint32_t whole[4]; /* the target's pixels */
     double projection[16], view[16];
@@ -319,8 +319,9 @@ typedef struct gni_volume {
     int unpatched; /* as in gn_record */
 } gni_volume;
 
-/* fragments.c: no pixel gets more fragments of one side of a volume than this. */
-uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting);
+/* fragments.c: no pixel gets more fragments of one side of a volume than this; and no more of their sum stays than
+ * *stay. */
+uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting, uint32_t *stay);
 
 /* batches_color.c: batches of counts in colour. */
 #define GNI_TILES        16
@@ -328,8 +329,8 @@ uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting
 void gni_start_color(gni_draft *d);
 /* A caster's volume, in this batch or in the next, or cut. */
 void gni_add_colored(gni_draft *d, const gni_volume *v, const gni_casting *casting);
-/* Room for so many fragments in the scissor; ends the batch if there is none. */
-void gni_make_room(gni_draft *d, const uint32_t scissor[4], uint32_t fragments);
+/* Room for so many fragments in the scissor, of which so many stay; ends the batch if there is none. */
+void gni_make_room(gni_draft *d, const uint32_t scissor[4], uint32_t fragments, uint32_t stay);
 /* The steps behind a batch, and before the next if more follows. */
 void gni_fold_color(gni_draft *d, int more_follows);
 
