@@ -89,7 +89,8 @@ static int is_possible(const gn_scene *s, gn_method method, gni_text *why)
                     gni_why_not(t, (gn_capability)c));
             return 0;
         }
-    return !gni_counts_in_color(method) || gni_color_is_possible(s, method, why);
+    return gni_counts_in_color(method) ? gni_color_is_possible(s, method, why)
+                                       : gni_stencil_is_possible(s, info->name, why);
 }
 
 /* From the best to what needs least. */

@@ -64,12 +64,17 @@ int gni_format_bytes(gn_format format)
 
 static int shares_depth(const gn_scene *s)
 {
-    return s->target.shared_depth && can(s, GN_CAN_SHARED_DEPTH);
+    return s->scale <= 1 && s->target.shared_depth && can(s, GN_CAN_SHARED_DEPTH);
+}
+
+static int is_small(const gn_scene *s)
+{
+    return s->scale > 1;
 }
 
 static int counts_in_alpha(const gn_scene *s)
 {
-    return can(s, GN_CAN_ALPHA) && s->target.alpha_bits >= LEAST_ALPHA;
+    return !is_small(s) && can(s, GN_CAN_ALPHA) && s->target.alpha_bits >= LEAST_ALPHA;
 }
 
 /* Whether a texture can bring masks to the host. */
@@ -111,6 +116,8 @@ int gni_color_is_possible(const gn_scene *s, gn_method method, gni_text *why)
     case GN_METHOD_SIGNED:
         return counts_in_alpha(s) || can_have_image(s, "signed", why);
     case GN_METHOD_ALPHA:
+        if (is_small(s)) /* in an image */
+            return can_have_image(s, "alpha", why);
         if (!counts_in_alpha(s))
             gni_put(why, "alpha needs %d bits of alpha (%d)", LEAST_ALPHA, t->alpha_bits);
         return counts_in_alpha(s);
@@ -156,8 +163,8 @@ static void choose_levels(const gn_scene *s, gni_choice *choice)
     case GN_METHOD_ALPHA:
         layout->start = layout->top;
         layout->limit = bits < 8 ? bits : 8;
-        layout->by_maximum = s->shade == GN_SHADE_ATTENUATE && can(s, GN_CAN_BLEND_MINMAX) &&
-                             choice->dimmed * layout->top + 0.5 > (layout->top + 1) / 2;
+        layout->by_maximum = layout->place == GN_PLACE_ALPHA && s->shade == GN_SHADE_ATTENUATE &&
+                             can(s, GN_CAN_BLEND_MINMAX) && choice->dimmed * layout->top + 0.5 > (layout->top + 1) / 2;
         break;
     default:
         gni_choose_channel(s, layout, 0);
@@ -175,10 +182,9 @@ void gni_choose_color(const gn_scene *s, gni_choice *choice)
     gn_color_layout *layout = &choice->color;
 
     choice->dimmed = s->shade != GN_SHADE_ATTENUATE ? 0.0 : s->dimmed > 0.0 ? s->dimmed : 0.5;
-    layout->place = choice->method == GN_METHOD_ALPHA                          ? GN_PLACE_ALPHA
-                    : choice->method == GN_METHOD_SCREEN                       ? GN_PLACE_COLOR
-                    : choice->method == GN_METHOD_SIGNED && counts_in_alpha(s) ? GN_PLACE_ALPHA
-                                                                               : GN_PLACE_IMAGE;
+    layout->place = choice->method == GN_METHOD_SCREEN                        ? GN_PLACE_COLOR
+                    : choice->method != GN_METHOD_COUNT && counts_in_alpha(s) ? GN_PLACE_ALPHA
+                                                                              : GN_PLACE_IMAGE;
     if (layout->place == GN_PLACE_IMAGE) {
         choice->image.format = find_count_format(s);
         choice->image.depth_bits = shares_depth(s) ? 0 : choose_depth(s);
@@ -202,11 +208,27 @@ uint32_t gni_color_limit(const gn_scene *s, gn_method method)
     return (uint32_t)choice.color.limit;
 }
 
+/* An image of depth and stencil, and a host that reads masks. */
+static int can_have_stencil_image(const gn_scene *s)
+{
+    return s->reads_masks && !s->blend_once && s->target.depth_bits >= 24 && can(s, GN_CAN_PACKED_DEPTH_STENCIL) &&
+           (can(s, GN_CAN_FBO_RGBA4) || can(s, GN_CAN_FBO_RGBA8));
+}
+
+int gni_stencil_is_possible(const gn_scene *s, const char *name, gni_text *why)
+{
+    if (is_small(s) && !can_have_stencil_image(s))
+        gni_put(why,
+                "%s at scale %lu needs packed-depth-stencil, 24 bits of depth (%d) and a host that reads masks from a "
+                "texture",
+                name, (unsigned long)s->scale, s->target.depth_bits);
+    return !is_small(s) || can_have_stencil_image(s);
+}
+
 static int may_take_stencil_to_texture(const gn_scene *s, const gni_choice *choice)
 {
-    return choice->method == GN_METHOD_STENCIL && s->light_count > 1 && s->lights_per_pass != 1 && s->reads_masks &&
-           !s->blend_once && !(s->without & GN_MEASURE_MASKS) && s->target.depth_bits >= 24 &&
-           can(s, GN_CAN_PACKED_DEPTH_STENCIL) && (can(s, GN_CAN_FBO_RGBA4) || can(s, GN_CAN_FBO_RGBA8));
+    return choice->method == GN_METHOD_STENCIL && s->light_count > 1 && s->lights_per_pass != 1 &&
+           !(s->without & GN_MEASURE_MASKS) && can_have_stencil_image(s);
 }
 
 /* Pixels that the lights reach, together; counts those that reach any. */
@@ -254,11 +276,12 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
 
     choice->dimmed = s->shade != GN_SHADE_ATTENUATE ? 0.0 : s->dimmed > 0.0 ? s->dimmed : 0.5;
     choice->lights_per_mask = 1;
-    if (takes_stencil_to_texture(s, choice)) {
+    if (choice->color.place == GN_PLACE_STENCIL && (is_small(s) || takes_stencil_to_texture(s, choice))) {
         choice->image.format = choice->mask_format = can(s, GN_CAN_FBO_RGBA4) ? GN_FORMAT_RGBA4 : GN_FORMAT_RGBA8;
         choice->image.depth_bits = 24;
         choice->image.stencil_bits = 8;
-        gni_put(&choice->text, "; masks are made in a texture, so that one pass adds several lights");
+        if (!is_small(s))
+            gni_put(&choice->text, "; masks are made in a texture, so that one pass adds several lights");
     } else if (choice->color.place == GN_PLACE_IMAGE) {
         choice->mask_format = find_mask_format(s);
     } else if (choice->color.place == GN_PLACE_COLOR) {
@@ -267,6 +290,8 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
     choice->mask = choice->mask_format != GN_FORMAT_NONE   ? GN_MASK_TEXTURE
                    : choice->color.place == GN_PLACE_ALPHA ? GN_MASK_ALPHA
                                                            : GN_MASK_STENCIL;
+    if (is_small(s))
+        gni_put(&choice->text, "; masks at scale 1/%lu, as asked for: not exact", (unsigned long)s->scale);
     if (choice->mask != GN_MASK_TEXTURE)
         return;
     if (bits_of(choice->mask_format, 3) == 0)

@@ -116,6 +116,12 @@ enum {
 
 /* ---- Plan: what will be drawn, as data, decided before any GL call ---- */
 
+/* How a mask that is smaller than the frame is read (Roettger 2002, section 4.5). */
+typedef enum gn_upsample {
+    GN_UPSAMPLE_NEAREST, /* blocks of pixels have one mask */
+    GN_UPSAMPLE_BILINEAR /* between them it is neither 0 nor 1 */
+} gn_upsample;
+
 /* What shadows do to a frame (Roettger 2002, section 4.3). */
 typedef enum gn_shade {
     GN_SHADE_ADDITIVE,  /* lights are added to ambient where they reach */
@@ -145,6 +151,9 @@ typedef struct gn_scene {
     /* 1: lights under stencils are added in passes of several too, by masks in textures, where the target can. 0: where
      * the plan finds that cheaper */
     int merges_lights;
+    /* A choice: masks have one pixel for 2 x 2 or 4 x 4 of the frame's, in a texture: 1, 2 or 4 [1] */
+    uint32_t scale;
+    gn_upsample upsample;
     gn_shade shade;
     double dimmed; /* GN_SHADE_ATTENUATE: what a shadow leaves of the light, more than 0, less than 1 [0.5] */
     int discards;  /* 1: the host reads neither depth nor stencil of the target after the frame: they may be dropped */
@@ -211,7 +220,12 @@ typedef enum gn_draw {
 } gn_draw;
 
 /* What a step draws into. */
-typedef enum gn_into { GN_INTO_TARGET, GN_INTO_IMAGE, GN_INTO_MASK } gn_into;
+typedef enum gn_into {
+    GN_INTO_TARGET,
+    GN_INTO_IMAGE,
+    GN_INTO_MASK,
+    GN_INTO_CORNER /* of the target: as large as a mask, at the lower left */
+} gn_into;
 
 typedef struct gn_step {
     gn_step_kind kind;
@@ -229,7 +243,7 @@ typedef struct gn_step {
 
 #define GN_NO_LIGHT UINT32_MAX
 
-/* An image that counts are made in, of the target's size. */
+/* An image that counts are made in, of a mask's size. */
 typedef struct gn_image {
     gn_format format; /* GN_FORMAT_NONE: there is none. With a stencil its colour is the mask itself */
     int depth_bits;   /* of its own depth; 0: it borrows the target's */
@@ -334,6 +348,11 @@ typedef struct gn_plan {
     gn_image image;
     gn_format mask_format;
     uint32_t mask_count; /* textures */
+    uint32_t scale;      /* pixels of the frame for one of a mask, in each direction */
+    gn_upsample upsample;
+    /* Of the host's passes: the target's size, or a little more, so that masks have whole pixels: matrices are made for it */
+    uint32_t viewport[2];
+    uint32_t mask_size[2]; /* viewport / scale: of images and mask textures */
     gn_traffic traffic;
     double clear_depth; /* 1, or the depth of zfar */
     /* View distances that depth 0 and 1 stand for. [0] is znear, or up to an eighth less, so that floats tell it from

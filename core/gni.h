@@ -286,6 +286,7 @@ typedef struct gni_choice {
 
 /* choose_color.c: those of methods that count in colour; and for all how masks reach the frame. */
 int gni_color_is_possible(const gn_scene *s, gn_method method, gni_text *why);
+int gni_stencil_is_possible(const gn_scene *s, const char *name, gni_text *why);
 void gni_choose_color(const gn_scene *s, gni_choice *choice);
 void gni_choose_masks(const gn_scene *s, gni_choice *choice);
 /* The same layout in another channel of the target's colour. */

@@ -176,7 +176,8 @@ static void find_depth_limit(gni_draft *d)
 {
     const gn_scene *s = d->scene;
     const gn_camera *c = &s->camera;
-    const double half = 0.5 * fmin((c->top - c->bottom) / s->target.height, (c->right - c->left) / s->target.width);
+    const double half =
+        0.5 * d->plan->scale * fmin((c->top - c->bottom) / s->target.height, (c->right - c->left) / s->target.width);
     const double steps = ldexp(0.25, s->target.depth_bits);
     double farthest = -INFINITY;
 
@@ -218,6 +219,25 @@ static gn_result place_objects(gni_draft *d)
     return GN_OK;
 }
 
+static uint32_t scale_of(const gn_scene *s)
+{
+    return s->scale ? s->scale : 1;
+}
+
+/* The frame is planned to whole pixels of its masks: to the right and above there is more of it than is seen. */
+static void widen(gn_scene *own)
+{
+    const uint32_t scale = scale_of(own), size[2] = {own->target.width, own->target.height};
+    gn_camera *c = &own->camera;
+
+    if (scale == 1)
+        return;
+    own->target.width = (size[0] + scale - 1) / scale * scale;
+    own->target.height = (size[1] + scale - 1) / scale * scale;
+    c->right = c->left + (c->right - c->left) * own->target.width / size[0];
+    c->top = c->bottom + (c->top - c->bottom) * own->target.height / size[1];
+}
+
 static void start_plan(gni_draft *d)
 {
     const gn_scene *s = d->scene;
@@ -233,6 +253,12 @@ static void start_plan(gni_draft *d)
     plan->dimmed = d->choice.dimmed;
     plan->image = d->choice.image;
     plan->mask_format = d->choice.mask_format;
+    plan->scale = scale_of(s);
+    plan->upsample = s->upsample;
+    plan->viewport[0] = s->target.width;
+    plan->viewport[1] = s->target.height;
+    for (int i = 0; i < 2; i++)
+        plan->mask_size[i] = plan->viewport[i] / plan->scale;
     plan->steps = d->steps;
     plan->records = d->records;
     plan->indices = d->indices;
@@ -358,6 +384,7 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     d.is_colored = gni_counts_in_color(d.choice.method);
     if (d.choice.image.depth_bits)
         own.target.depth_bits = d.choice.image.depth_bits;
+    widen(&own);
     start_plan(&d);
     d.plan->target = scene->target;
     result = make_frame(&d, &own);

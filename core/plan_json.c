@@ -66,7 +66,7 @@ static void put_step(gni_text *w, const gn_step *s)
         "clear",      "zero",        "volumes", "draw",      "fold", "mark",  "darken", "clear image",
         "clear mask", "clear color", "resolve", "normalise", "copy", "shade", "opaque", "discard"};
     static const char *const draws[GN_DRAW_COUNT] = {"nothing", "ambient", "light", "final", "depth", "lit"};
-    static const char *const intos[] = {"target", "image", "mask"};
+    static const char *const intos[] = {"target", "image", "mask", "corner"};
 
     gni_put(w, "\n  {\"step\": \"%s\", \"into\": \"%s\"", kinds[s->kind], intos[s->into]);
     if (s->kind == GN_STEP_DRAW)
@@ -187,10 +187,13 @@ static void put_masks(gni_text *w, const gn_plan *plan)
     static const char *const formats[] = {"none", "rgba8", "rgba4", "rgb5a1", "rgb565"};
 
     gni_put(w,
-            " \"mask\": \"%s\", \"shade\": \"%s\", \"dimmed\": %g, \"mask_format\": \"%s\", \"mask_textures\": %lu,\n"
+            " \"mask\": \"%s\", \"shade\": \"%s\", \"dimmed\": %g, \"mask_format\": \"%s\", \"mask_textures\": %lu, "
+            "\"scale\": %lu, "
+            "\"mask_size\": [%lu, %lu],\n"
             " \"image\": {\"format\": \"%s\", \"depth_bits\": %d, \"stencil_bits\": %d},\n",
             masks[plan->mask], shades[plan->shade], plan->dimmed, formats[plan->mask_format],
-            (unsigned long)plan->mask_count, formats[plan->image.format], plan->image.depth_bits,
+            (unsigned long)plan->mask_count, (unsigned long)plan->scale, (unsigned long)plan->mask_size[0],
+            (unsigned long)plan->mask_size[1], formats[plan->image.format], plan->image.depth_bits,
             plan->image.stencil_bits);
 }
 

@@ -11,6 +11,7 @@
 static gn_into into_of(const gn_plan *plan, gn_step_kind kind, gn_draw draw)
 {
     const int has_image = plan->image.format != GN_FORMAT_NONE;
+    const gn_into counted = has_image ? GN_INTO_IMAGE : plan->scale > 1 ? GN_INTO_CORNER : GN_INTO_TARGET;
 
     switch (kind) {
     case GN_STEP_ZERO:
@@ -19,12 +20,13 @@ static gn_into into_of(const gn_plan *plan, gn_step_kind kind, gn_draw draw)
     case GN_STEP_MARK:
     case GN_STEP_DARKEN:
     case GN_STEP_CLEAR_IMAGE:
-        return has_image ? GN_INTO_IMAGE : GN_INTO_TARGET;
+    case GN_STEP_NORMALISE:
+        return counted;
     case GN_STEP_CLEAR_MASK:
     case GN_STEP_RESOLVE: /* the colour of an image with a stencil is the mask */
         return plan->image.stencil_bits ? GN_INTO_IMAGE : GN_INTO_MASK;
     case GN_STEP_DRAW:
-        return draw == GN_DRAW_DEPTH && has_image ? GN_INTO_IMAGE : GN_INTO_TARGET;
+        return draw == GN_DRAW_DEPTH ? counted : GN_INTO_TARGET;
     default:
         return GN_INTO_TARGET;
     }
@@ -119,7 +121,7 @@ static void end_masks(gni_draft *d, uint32_t first_step)
     if (image->format != GN_FORMAT_NONE && gn_target_can(&d->scene->target, GN_CAN_DISCARD))
         add(d, GN_STEP_DISCARD)->into = GN_INTO_IMAGE;
     if (!is_drawn) {
-        add(d, is_screen(d) ? GN_STEP_CLEAR_COLOR : GN_STEP_CLEAR);
+        add(d, is_screen(d) && d->plan->scale == 1 ? GN_STEP_CLEAR_COLOR : GN_STEP_CLEAR);
         add_surfaces(d);
     }
 }

@@ -27,7 +27,8 @@ int gni_find_slivers(const gni_draft *d, const gni_volume *v, double eye[4], dou
     const gn_mesh *mesh = object->mesh;
     const gni_hull *box = &d->boxes[v->object];
     const double pixels =
-        fmin(d->whole[2] / (camera->right - camera->left), d->whole[3] / (camera->top - camera->bottom));
+        fmin(d->whole[2] / (camera->right - camera->left), d->whole[3] / (camera->top - camera->bottom)) /
+        d->plan->scale;
     static const double origin[3] = {0, 0, 0};
     double model_view[16], inverse[16], nearest = INFINITY, farthest = 0.0, longest = 0.0;
 

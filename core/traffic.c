@@ -25,9 +25,15 @@ static void note(gn_traffic *t, double *where, double written, double read)
     t->read += read;
 }
 
+static double share_of(const gn_plan *plan, gn_into into)
+{
+    return into == GN_INTO_TARGET ? 1.0 : 1.0 / ((double)plan->scale * plan->scale);
+}
+
 static double pixels_of(const gn_plan *plan, const buffers *b, const gn_step *step)
 {
-    return step->light == GN_NO_LIGHT ? b->pixels : area(plan->lights[step->light].scissor);
+    return share_of(plan, step->into) *
+           (step->light == GN_NO_LIGHT ? b->pixels : area(plan->lights[step->light].scissor));
 }
 
 static void note_draw(gn_plan *plan, const buffers *b, const gn_step *step)
@@ -95,7 +101,7 @@ static void note_step(gn_plan *plan, const buffers *b, const gn_step *step)
         note(t, &t->image_depth, plan->image.depth_bits ? pixels * b->image_depth : 0.0, 0.0);
         break;
     case GN_STEP_CLEAR_MASK:
-        note(t, &t->masks, b->pixels * b->mask, 0.0);
+        note(t, &t->masks, b->pixels * b->mask * share_of(plan, step->into), 0.0);
         break;
     case GN_STEP_RESOLVE:
         note(t, &t->masks, pixels * b->mask, pixels * b->mask);
@@ -122,7 +128,7 @@ static void note_step(gn_plan *plan, const buffers *b, const gn_step *step)
         break;
     case GN_STEP_VOLUMES:
         for (uint32_t i = step->first_record; i < step->first_record + step->record_count; i++)
-            note_count(plan, b, step, 2.0 * area(plan->records[i].scissor), 1);
+            note_count(plan, b, step, 2.0 * area(plan->records[i].scissor) * share_of(plan, step->into), 1);
         break;
     default:
         break;

@@ -63,6 +63,7 @@ typedef struct gni_reader {
 typedef struct gni_images {
     gn_image image;
     gn_format mask_format;
+    gn_upsample upsample;
     uint32_t width, height, mask_count, mask_capacity;
     GLuint borrowed;                  /* the depth renderbuffer that is the target's */
     GLuint framebuffer, count, depth; /* count: a texture; 0 where the image's colour is a mask */
@@ -85,6 +86,7 @@ struct gn_gles {
     gni_images images;
     gn_into into;              /* what is bound */
     uint32_t box[4];           /* around the lights of the pass at hand */
+    uint32_t scissor[4];       /* that was last sent */
     const gni_program *in_use; /* while volumes are drawn */
     const gn_mesh *pointed;    /* attribute 0 is at this one's chunk; NULL: elsewhere */
     uint32_t pointed_chunk;
@@ -172,6 +174,7 @@ gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan);
 void gni_delete_images(gn_gles *g);
 /* Binds what the step draws into. */
 void gni_bind_for(gn_gles *g, const gn_step *step);
+void gni_set_viewport(gn_gles *g); /* of what is bound */
 
 /* host_state.c: keeps what proofs disturb, and puts it back. */
 typedef struct gni_host_state {

@@ -3,7 +3,7 @@
 
 void gni_bound(gni_state *s, const gn_plan *plan, const gn_plan_light *l, const uint32_t scissor[4])
 {
-    if (scissor[2] < plan->target.width || scissor[3] < plan->target.height)
+    if (scissor[2] < plan->viewport[0] || scissor[3] < plan->viewport[1])
         s->scissor = scissor;
     if (l->depth_bounds[0] > 0.0 || l->depth_bounds[1] < 1.0)
         s->bounds = l->depth_bounds;

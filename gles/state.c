@@ -93,6 +93,25 @@ static void send_blending(gn_gles *g, const gni_state *wanted)
     last->alpha_destination = wanted->alpha_destination;
 }
 
+/* Of the frame's pixels; where masks are smaller, all of theirs that have one of these, or a neighbour that does. */
+static void send_scissor(gn_gles *g, const uint32_t scissor[4])
+{
+    uint32_t at[4], scale = g->plan && g->into != GN_INTO_TARGET ? g->plan->scale : 1;
+
+    memcpy(at, scissor, sizeof at);
+    for (int i = 0; i < 2 && scale > 1; i++) {
+        const uint32_t end = (scissor[i] + scissor[2 + i] + scale - 1) / scale + 1;
+
+        at[i] = scissor[i] / scale;
+        at[i] -= at[i] > 0;
+        at[2 + i] = scissor[2 + i] ? end - at[i] : 0;
+    }
+    if (!g->state.scissor || memcmp(at, g->scissor, sizeof at) != 0)
+        g->gl.glScissor((GLint)at[0], (GLint)at[1], (GLsizei)at[2], (GLsizei)at[3]);
+    memcpy(g->scissor, at, sizeof at);
+    g->state.scissor = scissor;
+}
+
 void gni_set_state(gn_gles *g, const gni_state *wanted)
 {
     const gn_gl *gl = &g->gl;
@@ -122,12 +141,8 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         gl->glPolygonOffset(0.0f, (GLfloat)wanted->offset);
         last->offset = wanted->offset;
     }
-    if (wanted->scissor && (!last->scissor || memcmp(wanted->scissor, last->scissor, 4 * sizeof *last->scissor) != 0)) {
-        const uint32_t *at = wanted->scissor;
-
-        gl->glScissor((GLint)at[0], (GLint)at[1], (GLsizei)at[2], (GLsizei)at[3]);
-        last->scissor = at;
-    }
+    if (wanted->scissor)
+        send_scissor(g, wanted->scissor);
     if (wanted->bounds && wanted->bounds != last->bounds) {
         gl->glDepthBoundsEXT(wanted->bounds[0], wanted->bounds[1]);
         last->bounds = wanted->bounds;

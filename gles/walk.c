@@ -12,7 +12,8 @@ static const gni_state unmasked = {.color_mask = 15, .depth_write = GL_TRUE, .st
 /* Depth that is there already is not drawn again: the ambient pass then meets it. */
 static int has_depth(const gn_plan *plan)
 {
-    return plan->mask == GN_MASK_TEXTURE && plan->image.format == GN_FORMAT_NONE && plan->mask_count > 0;
+    return plan->mask == GN_MASK_TEXTURE && plan->image.format == GN_FORMAT_NONE && plan->mask_count > 0 &&
+           plan->scale == 1;
 }
 
 /* By the target's alpha, which stays; or becomes 0 where something is lit, so that nothing else is. */
@@ -220,7 +221,7 @@ int gn_gles_next(gn_gles *g, gn_step *out)
     if (!g || !g->plan || g->forgotten)
         return 0;
     gni_reset_state(g);
-    g->gl.glViewport(0, 0, (GLsizei)g->plan->target.width, (GLsizei)g->plan->target.height);
+    gni_set_viewport(g);
     while (g->at < g->plan->step_count) {
         const gn_step *step = &g->plan->steps[g->at++];
         gni_state state;

@@ -24,6 +24,8 @@ const char help_render[] =
     "  --mask-dir DIR        writes light0.png, light1.png ... into DIR: 255 lit, 0 shadowed, "
     "alpha where a surface is\n"
     "  --method NAME         see `gnomon methods` [auto]\n"
+    "  --scale S             masks of a pixel for S x S of the frame's: 1, 2 or 4 [1]\n"
+    "  --upsample HOW        nearest or bilinear, for scale 2 and 4 [bilinear]\n"
     "  --shade HOW           additive: lights are added to ambient; attenuate: shadows dim a lit frame; black "
     "[additive]\n"
     "  --bits R,G,B,A,D,S    of the target, as near as the platform has [8,8,8,8,24,8]\n"
@@ -49,6 +51,9 @@ typedef struct job {
     const char *frame, *mask_dir, *method_name, *platform, *hide, *show, *plan, *report, *soft, *shade_name, *bits_text;
     int bits[6];
     gn_shade shade;
+    const char *upsample_name;
+    long scale;
+    gn_upsample upsample;
     long size[2], frames, soft_count;
     long update_every, proxy;
     double weld_angle;
@@ -128,7 +133,9 @@ static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
                                  .casting = 1,
                                  .first_light = i,
                                  .light_count = 1,
-                                 .unbounded = 1};
+                                 .unbounded = 1,
+                                 .scale = (uint32_t)j->scale,
+                                 .upsample = j->upsample};
         const int status = stage_plan(s, &wish, message);
 
         if (status != 0 || !stage_draw_mask(s, i, message)) {
@@ -168,7 +175,9 @@ static int timed_frame(stage *s, const job *j, int casting, double *ms, char mes
                              .blend_once = j->blend_once,
                              .least_light = j->importance,
                              .keeps = casting,
-                             .shade = j->shade};
+                             .shade = j->shade,
+                             .scale = (uint32_t)j->scale,
+                             .upsample = j->upsample};
     const double start = now_ms();
     const int status = stage_plan(s, &wish, message);
 
@@ -399,6 +408,23 @@ static int parse_bits(job *j)
     return 1;
 }
 
+static int parse_upsample(job *j)
+{
+    static const char *const names[] = {"nearest", "bilinear"};
+
+    if (j->scale != 1 && j->scale != 2 && j->scale != 4) {
+        say("--scale: takes 1, 2 or 4 (%ld)", j->scale);
+        return 0;
+    }
+    for (int i = 0; i < 2; i++)
+        if (strcmp(j->upsample_name, names[i]) == 0) {
+            j->upsample = (gn_upsample)i;
+            return 1;
+        }
+    say("--upsample: takes nearest or bilinear (%s)", j->upsample_name);
+    return 0;
+}
+
 static int parse_shade(job *j)
 {
     static const char *const names[] = {"additive", "attenuate", "black"};
@@ -424,6 +450,8 @@ int command_render(int count, char **arguments)
 {
     static const char *const shows[] = {"volumes", "silhouette", "cases", "mask", NULL};
     job j = {.method_name = "auto",
+             .upsample_name = "bilinear",
+             .scale = 1,
              .shade_name = "additive",
              .bits_text = "8,8,8,8,24,8",
              .size = {800, 600},
@@ -435,6 +463,8 @@ int command_render(int count, char **arguments)
         {"--size", OPTION_SIZE, j.size, 1, 16384},
         {"--mask-dir", OPTION_TEXT, &j.mask_dir, 0, 0},
         {"--method", OPTION_TEXT, &j.method_name, 0, 0},
+        {"--scale", OPTION_WHOLE, &j.scale, 1, 4},
+        {"--upsample", OPTION_TEXT, &j.upsample_name, 0, 0},
         {"--shade", OPTION_TEXT, &j.shade_name, 0, 0},
         {"--bits", OPTION_TEXT, &j.bits_text, 0, 0},
         {"--platform", OPTION_TEXT, &j.platform, 0, 0},
@@ -473,7 +503,7 @@ int command_render(int count, char **arguments)
     }
     if (!check_hidden("--hide", j.hide) || !check_hidden("GNOMON_HIDE", getenv("GNOMON_HIDE")))
         return EXIT_USAGE;
-    if (!parse_bits(&j) || !parse_shade(&j))
+    if (!parse_bits(&j) || !parse_shade(&j) || !parse_upsample(&j))
         return EXIT_USAGE;
     if (j.soft && !parse_soft(&j))
         return EXIT_USAGE;

@@ -48,7 +48,7 @@ static void add_lights(cJSON *root, const gn_plan *plan)
         cJSON *const o = cJSON_CreateObject();
 
         cJSON_AddStringToObject(o, "method", gn_plan_method_name(plan, i));
-        cJSON_AddNumberToObject(o, "scale", 1);
+        cJSON_AddNumberToObject(o, "scale", plan->scale);
         cJSON_AddStringToObject(o, "reason", l->reason);
         cJSON_AddNumberToObject(o, "casters", l->casters);
         cJSON_AddNumberToObject(o, "case1", l->cases[0]);

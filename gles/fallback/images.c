@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-static GLuint make_texture(gn_gles *g, gn_format format)
+static GLuint make_texture(gn_gles *g, gn_format format, GLint filter)
 {
     static const struct {
         GLenum format, type;
@@ -22,8 +22,8 @@ static GLuint make_texture(gn_gles *g, gn_format format)
     gl->glGenTextures(1, &name);
     gl->glActiveTexture(GL_TEXTURE0);
     gl->glBindTexture(GL_TEXTURE_2D, name);
-    gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+    gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
     gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl->glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl->glTexImage2D(GL_TEXTURE_2D, 0, (GLint)kinds[format].format, (GLsizei)g->images.width, (GLsizei)g->images.height,
@@ -47,7 +47,7 @@ static void make_image(gn_gles *g)
 
     gl->glGenFramebuffers(1, &m->framebuffer);
     if (!m->image.stencil_bits)
-        m->count = make_texture(g, m->image.format);
+        m->count = make_texture(g, m->image.format, GL_NEAREST);
     attach_color(g, m->framebuffer, m->image.stencil_bits ? m->masks[0] : m->count);
     if (m->image.depth_bits) {
         gl->glGenRenderbuffers(1, &m->depth);
@@ -110,7 +110,7 @@ static GLuint borrowed_by(const gn_plan *plan)
 
 static int are_there(const gni_images *m, const gn_plan *plan)
 {
-    return m->width == plan->target.width && m->height == plan->target.height &&
+    return m->width == plan->mask_size[0] && m->height == plan->mask_size[1] && m->upsample == plan->upsample &&
            memcmp(&m->image, &plan->image, sizeof m->image) == 0 && m->mask_format == plan->mask_format &&
            m->mask_count >= plan->mask_count && m->borrowed == borrowed_by(plan);
 }
@@ -138,11 +138,13 @@ static gn_result make(gn_gles *g, const gn_plan *plan)
     gni_delete_images(g);
     m->image = plan->image;
     m->mask_format = plan->mask_format;
-    m->width = plan->target.width;
-    m->height = plan->target.height;
+    m->width = plan->mask_size[0];
+    m->height = plan->mask_size[1];
+    m->upsample = plan->upsample;
     m->borrowed = borrowed_by(plan);
     for (; m->mask_count < plan->mask_count; m->mask_count++)
-        m->masks[m->mask_count] = make_texture(g, plan->mask_format);
+        m->masks[m->mask_count] =
+            make_texture(g, plan->mask_format, m->upsample == GN_UPSAMPLE_BILINEAR ? GL_LINEAR : GL_NEAREST);
     if (has_image) {
         make_image(g);
         result = check(g, "counts");
@@ -169,15 +171,26 @@ gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan)
     return are_there(&g->images, plan) ? GN_OK : make(g, plan);
 }
 
-void gni_bind_for(gn_gles *g, const gn_step *step)
+static int is_of_target(gn_into into)
+{
+    return into == GN_INTO_TARGET || into == GN_INTO_CORNER;
+}
+
+void gni_set_viewport(gn_gles *g)
+{
+    const uint32_t *size = g->into == GN_INTO_TARGET ? g->plan->viewport : g->plan->mask_size;
+
+    g->gl.glViewport(0, 0, (GLsizei)size[0], (GLsizei)size[1]);
+}
+
+static void bind(gn_gles *g, const gn_step *step)
 {
     gni_images *m = &g->images;
     GLuint framebuffer;
 
-    if (step->into == GN_INTO_TARGET) {
-        if (g->into != GN_INTO_TARGET)
+    if (is_of_target(step->into)) {
+        if (!is_of_target(g->into))
             g->gl.glBindFramebuffer(GL_FRAMEBUFFER, g->plan->target.framebuffer);
-        g->into = GN_INTO_TARGET;
         return;
     }
     framebuffer = step->into == GN_INTO_IMAGE ? m->framebuffer : m->mask_framebuffer;
@@ -185,7 +198,16 @@ void gni_bind_for(gn_gles *g, const gn_step *step)
         attach_color(g, framebuffer, m->masks[step->mask]);
     else if (g->into != step->into)
         g->gl.glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+}
+
+void gni_bind_for(gn_gles *g, const gn_step *step)
+{
+    const gn_into before = g->into;
+
+    bind(g, step);
     g->into = step->into;
+    if (g->plan->scale > 1 && (before == GN_INTO_TARGET) != (g->into == GN_INTO_TARGET))
+        gni_set_viewport(g);
 }
 
 uint32_t gn_gles_mask(const gn_gles *g, uint32_t mask)

@@ -82,8 +82,8 @@ static void copy(gn_gles *g, const gn_step *step)
 
     gl->glActiveTexture(GL_TEXTURE0);
     gl->glBindTexture(GL_TEXTURE_2D, g->images.masks[step->mask]);
-    gl->glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, (GLsizei)g->plan->target.width,
-                            (GLsizei)g->plan->target.height);
+    gl->glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, (GLsizei)g->plan->mask_size[0],
+                            (GLsizei)g->plan->mask_size[1]);
     gl->glBindTexture(GL_TEXTURE_2D, 0);
 }
 

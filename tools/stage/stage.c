@@ -361,6 +361,8 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
     frame.lights_per_pass = wish->lights_per_pass ? wish->lights_per_pass : s->shader_lights;
     frame.shade = wish->shade;
     frame.merges_lights = wish->merges_lights;
+    frame.scale = wish->scale;
+    frame.upsample = wish->upsample;
     frame.without = wish->without;
     frame.cache = wish->keeps ? s->cache : NULL;
     size = gn_plan_bound(&frame);

@@ -121,6 +121,8 @@ typedef struct stage_wish {
     int keeps;        /* shadows from frame to frame, in the stage's cache */
     gn_shade shade;
     int merges_lights;
+    uint32_t scale; /* of masks; 0: 1 */
+    gn_upsample upsample;
     uint32_t lights_per_pass; /* under a mask in a texture; 0: as many as the shader can */
 } stage_wish;
 
