@@ -57,7 +57,6 @@ typedef struct cutter {
     uint32_t to_do;       /* triangles that are in no piece yet */
     uint32_t indices_end; /* of the caster's room in d->indices */
     int spare;            /* pieces more than need be */
-    uint32_t stay;        /* of the piece measured last: as gni_most_fragments() has it */
 } cutter;
 
 /* d->piece holds the casting of these triangles, and 0 for all others. */
@@ -75,12 +74,12 @@ static void unmark(const cutter *c, const uint32_t *list, uint32_t count)
 
 /* Layers of the marked triangles of list[count], into the grid of the piece at hand; of a count in colour their
  * fragments. */
-static uint32_t measure(cutter *c, const uint32_t *list, uint32_t count)
+static uint32_t measure(const cutter *c, const uint32_t *list, uint32_t count)
 {
     gni_layers *l = c->d->layers;
 
     if (c->d->is_colored)
-        return gni_most_fragments(c->d, c->volume, &c->d->piece, &c->stay);
+        return gni_most_fragments(c->d, c->volume, &c->d->piece);
     return gni_measure_triangles(&l->cells, &l->piece, &l->scratch, c->mesh, c->model_view, c->d->piece.of, list,
                                  count);
 }
@@ -95,7 +94,7 @@ static void emit(const cutter *c, uint32_t measured)
 
     gni_find_bits(c->mesh, &d->piece);
     if (d->is_colored) {
-        gni_make_room(d, c->volume->extent->scissor, measured, c->stay);
+        gni_make_room(d, c->volume->extent->scissor, measured);
         gni_add_records(d, c->volume, 1, &d->piece);
         return;
     }
@@ -239,7 +238,7 @@ static uint32_t chain_end(const cutter *c, uint32_t at)
 }
 
 /* Whether the triangles order[from .. to) keep within the limit. */
-static int fits(cutter *c, uint32_t from, uint32_t to)
+static int fits(const cutter *c, uint32_t from, uint32_t to)
 {
     const uint32_t *list = c->d->order + from;
     uint32_t most;
@@ -252,7 +251,7 @@ static int fits(cutter *c, uint32_t from, uint32_t to)
 
 /* Where the longest run of whole chains from `from` on ends that keeps within the limit; `from` when not even one does.
  * Each look costs as much as a grid has cells: so runs are doubled, and the last doubling halved. */
-static uint32_t longest_run(cutter *c, uint32_t from, uint32_t count)
+static uint32_t longest_run(const cutter *c, uint32_t from, uint32_t count)
 {
     const uint32_t *order = c->d->order, *parent = c->d->parent;
     uint32_t good = chain_end(c, from), bad = count;
@@ -317,8 +316,7 @@ void gni_add_batched(gni_draft *d, const gni_volume *volume, const gni_casting *
                 (uint32_t)(d->is_colored ? about->color.limit : about->stencil.high),
                 0,
                 0,
-                d->is_colored ? GNI_SPARE_PIECES : 0,
-                0};
+                d->is_colored ? GNI_SPARE_PIECES : 0};
     uint32_t measured;
 
     gni_model_view(c.model_view, &d->scene->camera, object->model, object->mesh->info.centre);

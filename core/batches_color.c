@@ -2,8 +2,7 @@
  * within it at every pixel.
  *
  * The target is cut into tiles; a caster's volume adds its bound (fragments.c) to the tiles of its scissor, and where a
- * tile would have too much the batch ends. Red and green of count only grow; of one level that goes up and down there
- * stays, caster by caster, what is in shadow. Counting fronts and backs, and steps up and down, go on casters cut into
+ * tile would have too much the batch ends. Counting fronts and backs, and steps up and down, go on casters cut into
  * pieces if one alone is too much. Halving and doubling keep few, a piece would be a batch: there the plan warns. */
 #include "gni_plan.h"
 
@@ -21,7 +20,7 @@ static void find_tiles(uint32_t first_px, uint32_t count_px, uint32_t of_px, uin
     tiles[1] = (uint32_t)(((uint64_t)first_px + count_px - 1) * GNI_TILES / of_px);
 }
 
-void gni_make_room(gni_draft *d, const uint32_t scissor[4], uint32_t fragments, uint32_t stay)
+void gni_make_room(gni_draft *d, const uint32_t scissor[4], uint32_t fragments)
 {
     const gn_target *target = &d->scene->target;
     gn_plan_light *about = &d->lights[d->light];
@@ -41,15 +40,14 @@ void gni_make_room(gni_draft *d, const uint32_t scissor[4], uint32_t fragments, 
     }
     for (uint32_t y = rows[0]; y <= rows[1]; y++)
         for (uint32_t x = columns[0]; x <= columns[1]; x++)
-            d->tiles[GNI_TILES * y + x] += about->method == GN_METHOD_COUNT ? fragments : stay;
+            d->tiles[GNI_TILES * y + x] += fragments;
     about->fragments = about->fragments > most + fragments ? about->fragments : most + fragments;
 }
 
 void gni_add_colored(gni_draft *d, const gni_volume *v, const gni_casting *casting)
 {
     gn_plan_light *about = &d->lights[d->light];
-    uint32_t stay;
-    const uint32_t fragments = gni_most_fragments(d, v, casting, &stay), limit = (uint32_t)about->color.limit;
+    const uint32_t fragments = gni_most_fragments(d, v, casting), limit = (uint32_t)about->color.limit;
 
     if (fragments > limit && gni_cuts_casters(about->method)) {
         gni_add_batched(d, v, casting);
@@ -57,7 +55,7 @@ void gni_add_colored(gni_draft *d, const gni_volume *v, const gni_casting *casti
     }
     if (fragments > limit)
         d->plan->warnings |= 1u << GN_WARN_RANGE;
-    gni_make_room(d, v->extent->scissor, fragments, stay);
+    gni_make_room(d, v->extent->scissor, fragments);
     if (!d->slot || casting != &d->casting || !gni_add_kept_records(d, v, 1))
         gni_add_records(d, v, 1, casting);
 }

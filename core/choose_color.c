@@ -164,7 +164,7 @@ static void choose_levels(const gn_scene *s, gni_choice *choice)
         layout->start = layout->top;
         layout->limit = bits < 8 ? bits : 8;
         layout->by_maximum = layout->place == GN_PLACE_ALPHA && s->shade == GN_SHADE_ATTENUATE &&
-                             can(s, GN_CAN_BLEND_MINMAX) && choice->dimmed * layout->top + 0.5 > (layout->top + 1) / 2;
+                             can(s, GN_CAN_BLEND_MINMAX) && choice->dimmed * layout->top + 0.5 >= (layout->top + 1) / 2;
         break;
     default:
         gni_choose_channel(s, layout, 0);
@@ -205,7 +205,7 @@ uint32_t gni_color_limit(const gn_scene *s, gn_method method)
     gni_start_text(&choice.text, NULL, 0);
     choice.method = method;
     gni_choose_color(s, &choice);
-    return (uint32_t)choice.color.limit;
+    return choice.color.limit > 0 ? (uint32_t)choice.color.limit : 1; /* 0: it will be refused */
 }
 
 /* An image of depth and stencil, and a host that reads masks. */

@@ -10,9 +10,6 @@
  * there more than half of what one column of the image crosses of the border (sweep.c has this for layers and the light).
  * Columns run in several directions, and the least bound holds. Where the near plane cuts a cap, the cut is border too.
  *
- * What stays of a caster, once both its sides are counted, is the layers of its shadow over the pixel: in the plane of the
- * pencil these are no more than the silhouette edges that enter it, as many as run one way.
- *
  * A volume is never more than the volumes of its casting triangles one by one, each convex: no more than these. */
 #include "gni_plan.h"
 
@@ -242,6 +239,7 @@ static void cut_between(const border *b, const double from[4], const double to[4
 
     for (int i = 0; i < 4; i++)
         out[i] = from[i] + t * (to[i] - from[i]);
+    out[2] = fmin(out[2], -1e-6 * fmax(fabs(out[0]), fabs(out[1]))); /* of directions: as good as at right angles */
 }
 
 static void add_columns(border *b, int side, const double from[2], const double to[2], int32_t weight)
@@ -407,7 +405,7 @@ static uint32_t count_casting(const gn_mesh *mesh, const gni_casting *casting)
     return count;
 }
 
-uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting, uint32_t *stay)
+uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting)
 {
     const gn_camera *camera = &d->scene->camera;
     const gn_object *object = &d->scene->objects[v->object];
@@ -429,6 +427,5 @@ uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting
         sides = count_sides(d, &s, v->object, casting);
     if (s.parts & (GN_LIGHT_CAP | GN_DARK_CAP))
         caps = count_caps(d, &s, casting);
-    *stay = s.parts & GN_SIDES && sides < triangles ? sides : triangles;
     return sides < triangles && caps < triangles - sides ? sides + caps : triangles;
 }

@@ -125,7 +125,7 @@ typedef enum gn_upsample {
 /* What shadows do to a frame (Roettger 2002, section 4.3). */
 typedef enum gn_shade {
     GN_SHADE_ADDITIVE,  /* lights are added to ambient where they reach */
-    GN_SHADE_ATTENUATE, /* a fully lit frame is dimmed in each light's shadow */
+    GN_SHADE_ATTENUATE, /* what receives is lit fully, and dimmed in each light's shadow, as if no light had bounds */
     GN_SHADE_BLACK      /* and there is set to black */
 } gn_shade;
 
@@ -215,7 +215,9 @@ typedef enum gn_draw {
     GN_DRAW_LIGHT,   /* objects that receive (or those that do not), added, under the mask of `lights` */
     GN_DRAW_FINAL,   /* transparent things and labels: McGuire's last pass */
     GN_DRAW_DEPTH,   /* every opaque object, depth alone: no colour is written. Into whatever is bound */
-    GN_DRAW_LIT,     /* every opaque object, depth and all light, as if nothing cast: GN_SHADE_ATTENUATE and BLACK */
+    /* As if nothing cast, for GN_SHADE_ATTENUATE and BLACK: depth and all light of every opaque object; and again, once
+     * shadows have dimmed that, of those that do not receive (receivers 0), over it */
+    GN_DRAW_LIT,
     GN_DRAW_COUNT
 } gn_draw;
 
@@ -232,16 +234,17 @@ typedef struct gn_step {
     gn_draw draw;
     gn_into into;
     uint32_t light; /* index into the scene's lights, where it matters; GN_NO_LIGHT: none */
-    int receivers;  /* GN_DRAW_LIGHT: 1 draw what receives, under the mask; 0 draw the rest, unmasked */
+    int receivers;  /* GN_DRAW_LIGHT: 1 draw what receives, under the mask; 0 draw the rest, unmasked. See GN_DRAW_LIT */
     uint32_t first_record, record_count; /* GN_STEP_VOLUMES */
     uint32_t patch;                      /* GN_STEP_DARKEN */
-    uint32_t mask;                       /* of the plan's mask textures: which */
+    uint32_t mask;                       /* of the plan's mask textures: which; GN_NO_MASK: what is lit needs none */
     /* GN_DRAW_LIGHT, GN_STEP_SHADE: lights that are added at once, mostly one. The mask of lights[i] is in the channel
      * of its gn_plan_light.mask_channel, which with a texture is i. */
     uint32_t lights[GN_MOST_MASKED], light_count;
 } gn_step;
 
 #define GN_NO_LIGHT UINT32_MAX
+#define GN_NO_MASK  UINT32_MAX
 
 /* An image that counts are made in, of a mask's size. */
 typedef struct gn_image {
@@ -278,7 +281,8 @@ typedef struct gn_plan_light {
     gn_skip skip;                        /* not GN_SKIP_NOT: there is no step for it */
     gn_stencil_layout stencil;           /* of methods that count there */
     gn_color_layout color;               /* of the others; place is GN_PLACE_STENCIL for the former */
-    uint32_t mask_texture, mask_channel; /* GN_MASK_TEXTURE: where its mask is, unless it is skipped */
+    uint32_t mask_texture, mask_channel; /* GN_MASK_TEXTURE: where its mask is; GN_NO_MASK where nothing shadows */
+    int is_shadowed;                     /* something is counted for it */
     double reach; /* what is farther is not lit, and a little more for rounding; INFINITY: no bound */
     uint32_t
         scissor[4]; /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound; all 0: the
@@ -385,8 +389,9 @@ typedef struct gn_plan {
 } gn_plan;
 
 /* Bytes that gn_plan_make() may need for this scene at most, whatever the camera, the lights' places and the model
- * matrices are: it depends on the counts, the meshes, the flags, camera.orthographic, camera.finite_far and the
- * target's capabilities only. 0 when scene is NULL or the size does not fit size_t. */
+ * matrices are: it depends on the counts, the meshes, the flags, camera.orthographic, camera.finite_far, the target's bits
+ * and capabilities, the method, and what the host says of masks (reads_masks, blend_once, scale). 0 when scene is NULL or
+ * the size does not fit size_t. */
 size_t gn_plan_bound(const gn_scene *scene);
 
 /* Makes the plan of a frame in the given memory (aligned for double). Pure but for the cache: equal scenes give equal

@@ -174,7 +174,7 @@ typedef struct gni_draft {
     int32_t *seams[2];  /* [vertices of the largest caster] */
     int32_t (*columns)[2][GNI_COLUMNS + 1]; /* [GNI_COLUMN_WAYS] */
     int32_t (*sectors)[GNI_SECTORS + 1];    /* [2] */
-    uint32_t *tiles;      /* [GNI_TILES^2] of the target: what is in the levels of the batch at hand */
+    uint32_t *tiles;      /* [GNI_TILES^2] of the target: fragments of the batch at hand */
     uint8_t *draws;       /* [light_count] of GNI_DRAWS_*: what the light adds to */
     uint32_t mask_count;  /* lights that have a channel of a mask */
     int image_is_used;    /* something was counted in it */
@@ -319,9 +319,8 @@ typedef struct gni_volume {
     int unpatched; /* as in gn_record */
 } gni_volume;
 
-/* fragments.c: no pixel gets more fragments of one side of a volume than this; and no more of their sum stays than
- * *stay. */
-uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting, uint32_t *stay);
+/* fragments.c: no pixel gets more fragments of one side of a volume than this. */
+uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting);
 
 /* batches_color.c: batches of counts in colour. */
 #define GNI_TILES        16
@@ -329,8 +328,8 @@ uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting
 void gni_start_color(gni_draft *d);
 /* A caster's volume, in this batch or in the next, or cut. */
 void gni_add_colored(gni_draft *d, const gni_volume *v, const gni_casting *casting);
-/* Room for so many fragments in the scissor, of which so many stay; ends the batch if there is none. */
-void gni_make_room(gni_draft *d, const uint32_t scissor[4], uint32_t fragments, uint32_t stay);
+/* Room for so many fragments in the scissor; ends the batch if there is none. */
+void gni_make_room(gni_draft *d, const uint32_t scissor[4], uint32_t fragments);
 /* The steps behind a batch, and before the next if more follows. */
 void gni_fold_color(gni_draft *d, int more_follows);
 

@@ -65,7 +65,7 @@ static int lay_out(gni_draft *d, arena *a)
             continue;
         if (s->camera.orthographic)
             ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
-        pieces = gni_most_pieces(mesh, ends, limit) + (is_colored ? GNI_SPARE_PIECES : GNI_MOST_INTERVALS - 1);
+        pieces = gni_most_pieces(mesh, ends, limit) + (is_colored ? GNI_SPARE_PIECES * ends : GNI_MOST_INTERVALS - 1);
         if (mesh->info.chunk_count > (most - records) / (pieces + GN_MOST_PATCHES) ||
             mesh->info.triangle_count > (most - indices) / GNI_MOST_INDICES)
             return 0;
@@ -385,6 +385,8 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     if (d.choice.image.depth_bits)
         own.target.depth_bits = d.choice.image.depth_bits;
     widen(&own);
+    if (own.shade != GN_SHADE_ADDITIVE) /* what is not lit is dimmed too: shadows must reach it */
+        own.without |= GN_MEASURE_ENDS | GN_MEASURE_PATCHES | GN_MEASURE_INTERVALS | GN_MEASURE_SCISSORS;
     start_plan(&d);
     d.plan->target = scene->target;
     result = make_frame(&d, &own);

@@ -253,20 +253,32 @@ static gn_result add_colored(gni_draft *d)
     return result;
 }
 
-/* The light's mask. */
+/* The light's mask. One that nothing shadows has none: its steps are taken back. */
 static gn_result add_mask(gni_draft *d)
 {
+    gn_plan_light *about = &d->lights[d->light];
+    const uint32_t first = d->plan->step_count, record = d->plan->record_count;
+    const gni_stain stain = d->stain;
+    const int were_marked = d->are_marked;
     uint32_t step;
     gn_result result;
 
     if (d->plan->mask == GN_MASK_TEXTURE)
         take_channel(d);
-    if (d->is_colored)
-        return add_colored(d);
     step = d->plan->step_count;
-    result = add_volumes(d);
-    if (d->plan->mask == GN_MASK_TEXTURE && d->plan->step_count > step)
+    result = d->is_colored ? add_colored(d) : add_volumes(d);
+    about->is_shadowed = d->plan->record_count > record || (d->uses_patches && any_is_dark(d));
+    if (d->plan->mask != GN_MASK_TEXTURE)
+        return result;
+    if (about->is_shadowed && !d->is_colored && d->plan->step_count > step)
         gni_add_step(d, GN_STEP_RESOLVE, GN_DRAW_NOTHING, d->light, 0);
+    if (about->is_shadowed)
+        return result;
+    d->plan->step_count = first;
+    d->stain = stain;
+    d->are_marked = were_marked;
+    d->mask_count--;
+    about->mask_texture = GN_NO_MASK;
     return result;
 }
 
@@ -350,7 +362,7 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
     about->color = d->choice.color;
     memcpy(about->reason, d->choice.reason, sizeof about->reason);
     gni_light_in_view(&d->scene->camera, &s->lights[light], at);
-    if (gni_models_less(about->method))
+    if (gni_models_less(about->method) && s->shade == GN_SHADE_ADDITIVE)
         gni_find_bounds(&d->bounds, s, light, at, d->view);
     else
         gni_no_bounds(&d->bounds, s, at);

@@ -42,7 +42,7 @@ gn_step *gni_add_step(gni_draft *d, gn_step_kind kind, gn_draw draw, uint32_t li
     step->into = into_of(d->plan, kind, draw);
     step->light = light;
     step->receivers = receivers;
-    step->mask = light == GN_NO_LIGHT ? 0 : d->lights[light].mask_texture;
+    step->mask = light == GN_NO_LIGHT ? GN_NO_MASK : d->lights[light].mask_texture;
     return step;
 }
 
@@ -63,7 +63,25 @@ static int is_screen(const gni_draft *d)
 
 static void add_surfaces(gni_draft *d)
 {
-    add_draw(d, d->plan->shade == GN_SHADE_ADDITIVE ? GN_DRAW_AMBIENT : GN_DRAW_LIT);
+    gni_add_step(d, GN_STEP_DRAW, d->plan->shade == GN_SHADE_ADDITIVE ? GN_DRAW_AMBIENT : GN_DRAW_LIT, GN_NO_LIGHT, 1);
+}
+
+/* Whether the light's pass, or what dims its shadow, is needed of the receivers. */
+static int is_passed(const gni_draft *d, uint32_t light, unsigned draws)
+{
+    return d->draws[light] & draws && (d->plan->shade == GN_SHADE_ADDITIVE || d->lights[light].is_shadowed);
+}
+
+/* Shadows have dimmed what does not receive too: it is drawn again. */
+static void redraw_others(gni_draft *d)
+{
+    const gn_scene *s = d->scene;
+    int any = 0;
+
+    for (uint32_t i = 0; i < s->object_count; i++)
+        any |= !(s->objects[i].flags & GN_RECEIVES);
+    if (any && d->receivers_are_known && d->plan->shade != GN_SHADE_ADDITIVE)
+        gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIT, GN_NO_LIGHT, 0);
 }
 
 /* Depth, and the frame too where masks are made under its depth. */
@@ -136,7 +154,7 @@ static void add_group(gni_draft *d, uint32_t *first, unsigned draws)
     for (; *first < d->scene->light_count; (*first)++) {
         const uint32_t light = *first;
 
-        if (!(d->draws[light] & draws))
+        if (!is_passed(d, light, draws))
             continue;
         if (step && (step->light_count == most ||
                      (receivers && d->lights[light].mask_texture != d->lights[step->light].mask_texture)))
@@ -163,7 +181,7 @@ static void add_own_passes(gni_draft *d, uint32_t light)
     const int is_once = d->scene->blend_once, is_alpha = d->plan->mask == GN_MASK_ALPHA;
     gn_step *step;
 
-    if (d->draws[light] & GNI_DRAWS_RECEIVERS) {
+    if (is_passed(d, light, GNI_DRAWS_RECEIVERS)) {
         step = d->plan->shade == GN_SHADE_ADDITIVE ? gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIGHT, light, 1)
                                                    : gni_add_step(d, GN_STEP_SHADE, GN_DRAW_NOTHING, light, 0);
         step->lights[0] = light;
@@ -206,6 +224,7 @@ gn_result gni_add_passes(gni_draft *d)
         end_masks(d, first_step);
         add_light_passes(d);
     }
+    redraw_others(d);
     add_draw(d, GN_DRAW_FINAL);
     if (d->plan->mask == GN_MASK_ALPHA)
         add(d, GN_STEP_OPAQUE);

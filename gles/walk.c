@@ -168,7 +168,7 @@ static gni_state state_for(gn_gles *g, const gn_step *step)
     case GN_DRAW_AMBIENT:
     case GN_DRAW_LIT:
         s = ambient;
-        if (has_depth(plan)) {
+        if (has_depth(plan) || (step->draw == GN_DRAW_LIT && !step->receivers)) {
             s.depth_func = GL_EQUAL;
             s.depth_write = GL_FALSE;
         }

@@ -192,11 +192,14 @@ static const gn_plan_light *first_counted(const gn_plan *plan)
 
 void gni_color_step(gn_gles *g, const gn_step *step)
 {
+    gn_step everywhere = *step;
     const gn_plan_light *l = step->light == GN_NO_LIGHT ? first_counted(g->plan) : &g->plan->lights[step->light];
 
     switch (step->kind) {
     case GN_STEP_ZERO:
-        quad(g, step, writes(l->color.channels, 0, 0, 0), (float)l->color.start * step_of(&l->color));
+        if (l->color.place == GN_PLACE_COLOR) /* all of a texture is copied */
+            everywhere.light = GN_NO_LIGHT;
+        quad(g, &everywhere, writes(l->color.channels, 0, 0, 0), (float)l->color.start * step_of(&l->color));
         break;
     case GN_STEP_FOLD:
         fold(g, step, l);

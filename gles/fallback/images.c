@@ -186,7 +186,7 @@ void gni_set_viewport(gn_gles *g)
 static void bind(gn_gles *g, const gn_step *step)
 {
     gni_images *m = &g->images;
-    GLuint framebuffer;
+    GLuint framebuffer, texture;
 
     if (is_of_target(step->into)) {
         if (!is_of_target(g->into))
@@ -194,8 +194,9 @@ static void bind(gn_gles *g, const gn_step *step)
         return;
     }
     framebuffer = step->into == GN_INTO_IMAGE ? m->framebuffer : m->mask_framebuffer;
-    if ((step->into == GN_INTO_MASK || m->image.stencil_bits) && m->attached != m->masks[step->mask])
-        attach_color(g, framebuffer, m->masks[step->mask]);
+    texture = m->masks[step->mask == GN_NO_MASK ? 0 : step->mask];
+    if ((step->into == GN_INTO_MASK || m->image.stencil_bits) && m->attached != texture)
+        attach_color(g, framebuffer, texture);
     else if (g->into != step->into)
         g->gl.glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }

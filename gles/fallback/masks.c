@@ -87,7 +87,17 @@ static void copy(gn_gles *g, const gn_step *step)
     gl->glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-static const gni_state multiply = {.color_mask = COLOR, .blend_destination = GL_SRC_COLOR};
+/* Only surfaces: the background has the depth that was cleared to, and quads are drawn two steps before it. */
+static const gni_state multiply = {
+    .color_mask = COLOR, .depth_func = GL_GREATER, .blend_destination = GL_SRC_COLOR};
+
+static void set_depth(gn_gles *g, int before_background)
+{
+    const double step = 1.0 / (double)(1u << (g->plan->target.depth_bits < 24 ? g->plan->target.depth_bits : 24));
+    const GLfloat depth = (GLfloat)(g->plan->clear_depth - 2.0 * step);
+
+    g->gl.glDepthRangef(before_background ? depth : 0.0f, before_background ? depth : 1.0f);
+}
 
 static void shade_by_alpha(gn_gles *g, const gn_step *step)
 {
@@ -123,6 +133,7 @@ static void shade(gn_gles *g, const gn_step *step)
     const float left = (float)g->plan->dimmed, dimmed[4] = {left, left, left, left};
     gni_state state;
 
+    set_depth(g, 1);
     switch (g->plan->mask) {
     case GN_MASK_ALPHA:
         shade_by_alpha(g, step);
@@ -133,9 +144,11 @@ static void shade(gn_gles *g, const gn_step *step)
     default:
         state = gni_where_count(&g->plan->lights[step->light], GL_NOTEQUAL);
         state.color_mask = COLOR;
+        state.depth_func = GL_GREATER;
         state.blend_destination = GL_SRC_COLOR;
         gni_fill_quad(g, step, state, dimmed);
     }
+    set_depth(g, 0);
 }
 
 /* Depth and stencil; of an image that is not the mask its count too. */

@@ -7,7 +7,7 @@ varying highp vec2 v_at;
 #else
 varying mediump vec2 v_at;
 #endif
-uniform lowp sampler2D u_texture;
+uniform mediump sampler2D u_texture;
 uniform mediump vec4 u_unused;
 uniform mediump float u_dimmed;
 

@@ -23,13 +23,13 @@ static void draw_blended(stage *s, uint32_t first_light, uint32_t light_count)
 }
 
 /* Every opaque object and all lights, as many in a pass as the shader takes; the state for the first is set. */
-static void draw_all_lit(stage *s, uint32_t first_light, uint32_t count, int backs)
+static void draw_all_lit(stage *s, uint32_t first_light, uint32_t count, int receivers, int backs)
 {
     const uint32_t group = s->shader_lights, end = first_light + count;
     stage_look look = {.ambient = 1,
                        .first_light = first_light,
                        .light_count = count < group ? count : group,
-                       .receivers = -1,
+                       .receivers = receivers,
                        .facing_light = -1,
                        .backs = backs};
 
@@ -84,7 +84,7 @@ int stage_draw_lit(stage *s, uint32_t first_light, char message[SCENE_MESSAGE])
             stage_draw_objects(s, STAGE_PASS_SOLID, &ambient);
             break;
         case GN_DRAW_LIT:
-            draw_all_lit(s, first_light, s->plan->light_count, 1);
+            draw_all_lit(s, first_light, s->plan->light_count, step.receivers ? -1 : 0, step.receivers);
             break;
         case GN_DRAW_LIGHT:
             stage_draw_objects(s, STAGE_PASS_SOLID, &light);
@@ -155,7 +155,7 @@ void stage_draw_plain(stage *s)
     gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
     gl->glEnable(GL_DEPTH_TEST);
     gl->glDepthFunc(GL_LESS);
-    draw_all_lit(s, 0, count, 0);
+    draw_all_lit(s, 0, count, -1, 0);
     gl->glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     gl->glDepthFunc(GL_LESS);
     draw_blended(s, 0, count);
