@@ -308,15 +308,9 @@ void gni_add_batched(gni_draft *d, const gni_volume *volume, const gni_casting *
 {
     const gn_object *object = &d->scene->objects[volume->object];
     const gn_plan_light *about = &d->lights[d->light];
-    cutter c = {d,
-                volume,
-                object->mesh,
-                casting->of,
-                {0},
-                (uint32_t)(d->is_colored ? about->color.limit : about->stencil.high),
-                0,
-                0,
-                d->is_colored ? GNI_SPARE_PIECES : 0};
+    cutter c = {d,           volume, object->mesh,
+                casting->of, {0},    (uint32_t)(d->is_colored ? about->color.limit : about->stencil.high),
+                0,           0,      d->is_colored ? GNI_SPARE_PIECES : 0};
     uint32_t measured;
 
     gni_model_view(c.model_view, &d->scene->camera, object->model, object->mesh->info.centre);

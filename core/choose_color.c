@@ -143,6 +143,18 @@ void gni_choose_channel(const gn_scene *s, gn_color_layout *layout, uint32_t cha
     layout->channels = 1u << channel;
 }
 
+/* What gles/fallback/color.c draws: signed subtracts, doubles up to the start, multiplies and doubles three times. */
+static int count_quads(gn_method method, const gn_color_layout *layout)
+{
+    int doublings = 0;
+
+    if (method != GN_METHOD_SIGNED)
+        return layout->by_maximum ? 1 : 4;
+    while (1 << doublings < layout->start)
+        doublings++;
+    return 1 + doublings + 1 + 3;
+}
+
 static void choose_levels(const gn_scene *s, gni_choice *choice)
 {
     gn_color_layout *layout = &choice->color;
@@ -169,6 +181,7 @@ static void choose_levels(const gn_scene *s, gni_choice *choice)
     default:
         gni_choose_channel(s, layout, 0);
     }
+    layout->quads = count_quads(choice->method, layout);
 }
 
 /* A depth buffer of the image's own, as near to the target's as there is. */

@@ -169,7 +169,8 @@ size_t gn_plan_explain_warning(const gn_plan *plan, gn_warning warning, char *te
                 "up to "
                 "%g "
                 "away: edges of shadows may stray there; a near plane farther out than %g helps",
-                plan->depth_limit, plan->image.depth_bits ? plan->image.depth_bits : plan->target.depth_bits, plan->deepest_receiver, plan->depth_range[0]);
+                plan->depth_limit, plan->image.depth_bits ? plan->image.depth_bits : plan->target.depth_bits,
+                plan->deepest_receiver, plan->depth_range[0]);
         break;
     case GN_WARN_RANGE:
         for (uint32_t i = 0; i < plan->light_count; i++)

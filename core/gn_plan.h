@@ -90,6 +90,7 @@ typedef struct gn_color_layout {
     int other_top;     /* count: of green, where backs or fronts are; 0: there is one channel */
     int limit;         /* the most that is surely kept at a pixel: fragments of either side, or the sum on the way */
     unsigned channels; /* that are written: red 1, green 2, blue 4, alpha 8 */
+    int quads;         /* that take levels back to 0 or full, where they are not an image's */
     int by_maximum; /* a shadow's level becomes the shade by MAX, and no fold is needed before (Roettger 2002, 4.4) */
 } gn_color_layout;
 
@@ -234,7 +235,7 @@ typedef struct gn_step {
     gn_draw draw;
     gn_into into;
     uint32_t light; /* index into the scene's lights, where it matters; GN_NO_LIGHT: none */
-    int receivers;  /* GN_DRAW_LIGHT: 1 draw what receives, under the mask; 0 draw the rest, unmasked. See GN_DRAW_LIT */
+    int receivers; /* GN_DRAW_LIGHT: 1 draw what receives, under the mask; 0 draw the rest, unmasked. See GN_DRAW_LIT */
     uint32_t first_record, record_count; /* GN_STEP_VOLUMES */
     uint32_t patch;                      /* GN_STEP_DARKEN */
     uint32_t mask;                       /* of the plan's mask textures: which; GN_NO_MASK: what is lit needs none */

@@ -174,12 +174,12 @@ typedef struct gni_draft {
     int32_t *seams[2];  /* [vertices of the largest caster] */
     int32_t (*columns)[2][GNI_COLUMNS + 1]; /* [GNI_COLUMN_WAYS] */
     int32_t (*sectors)[GNI_SECTORS + 1];    /* [2] */
-    uint32_t *tiles;      /* [GNI_TILES^2] of the target: fragments of the batch at hand */
-    uint8_t *draws;       /* [light_count] of GNI_DRAWS_*: what the light adds to */
-    uint32_t mask_count;  /* lights that have a channel of a mask */
-    int image_is_used;    /* something was counted in it */
-    gni_slot *slot;       /* of the caster at hand in the cache; NULL: it is not kept */
-    int casting_is_known; /* d->casting is the slot's, or there is none */
+    uint32_t *tiles;                        /* [GNI_TILES^2] of the target: fragments of the batch at hand */
+    uint8_t *draws;                         /* [light_count] of GNI_DRAWS_*: what the light adds to */
+    uint32_t mask_count;                    /* lights that have a channel of a mask */
+    int image_is_used;                      /* something was counted in it */
+    gni_slot *slot;                         /* of the caster at hand in the cache; NULL: it is not kept */
+    int casting_is_known;                   /* d->casting is the slot's, or there is none */
     gni_choice choice;
     uint32_t whole[4]; /* the target's pixels */
     double projection[16], view[16];

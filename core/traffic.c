@@ -33,7 +33,7 @@ static double share_of(const gn_plan *plan, gn_into into)
 static double pixels_of(const gn_plan *plan, const buffers *b, const gn_step *step)
 {
     return share_of(plan, step->into) *
-           (step->light == GN_NO_LIGHT ? b->pixels : area(plan->lights[step->light].scissor));
+           (step->light == GN_NO_LIGHT || step->light_count > 1 ? b->pixels : area(plan->lights[step->light].scissor));
 }
 
 static void note_draw(gn_plan *plan, const buffers *b, const gn_step *step)
@@ -82,6 +82,14 @@ static void note_count(gn_plan *plan, const buffers *b, const gn_step *step, dou
          pixels * (is_image ? b->image : b->color));
 }
 
+/* Quads of a fold or a normalisation: one where it is a stencil's. */
+static double quads_of(const gn_plan *plan, const gn_step *step)
+{
+    const gn_color_layout *layout = &plan->lights[step->light == GN_NO_LIGHT ? 0 : step->light].color;
+
+    return layout->quads > 0 ? layout->quads : 1.0;
+}
+
 static void note_step(gn_plan *plan, const buffers *b, const gn_step *step)
 {
     gn_traffic *t = &plan->traffic;
@@ -112,7 +120,7 @@ static void note_step(gn_plan *plan, const buffers *b, const gn_step *step)
         note(t, &t->masks, pixels * b->mask, 0.0);
         break;
     case GN_STEP_NORMALISE:
-        note(t, &t->target_color, 4.0 * pixels * b->color, 4.0 * pixels * b->color);
+        note(t, &t->target_color, quads_of(plan, step) * pixels * b->color, quads_of(plan, step) * pixels * b->color);
         break;
     case GN_STEP_SHADE:
         note(t, &t->target_color, pixels * b->color, pixels * b->color);
@@ -121,8 +129,10 @@ static void note_step(gn_plan *plan, const buffers *b, const gn_step *step)
     case GN_STEP_DRAW:
         note_draw(plan, b, step);
         break;
-    case GN_STEP_ZERO:
     case GN_STEP_FOLD:
+        note_count(plan, b, step, quads_of(plan, step) * pixels, 0);
+        break;
+    case GN_STEP_ZERO:
     case GN_STEP_DARKEN:
         note_count(plan, b, step, pixels, 0);
         break;

@@ -122,7 +122,7 @@ void gni_leave_state(gn_gles *g); /* as in a new context */
 GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const char *vertex, const char *fragment);
 
 /* quad.vert over another. 0 on failure. */
-int gni_make_reader(gn_gles *g, gni_reader *out, const char *name, const char *fragment);
+int gni_make_reader(gn_gles *g, gni_reader *out, const char *name, const char *defines, const char *fragment);
 
 /* Of flat.frag's ways, by its defines. 0 on failure. */
 int gni_make_flat_program(gn_gles *g, gni_program *out, const char *name, const char *defines);

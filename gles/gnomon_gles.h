@@ -22,7 +22,8 @@
  *
  *     on entry   the framebuffer that the plan's target describes is bound, to draw and to read; no GL error is
  *                pending; the depth range is 0 to 1, and depth clamp, sample coverage and sample alpha to coverage are
- *                off, as in a new context. Any other state
+ *                off, as in a new context; for plans with masks in textures no sampler object on unit 0 and no buffer
+ *                to unpack pixels from (OpenGL ES 3). Any other state
  *     clear      before the first step but DEPTH colour (to the host's clear colour), depth and, if the plan counts there,
  *                stencil are cleared, unmasked
  *     DEPTH      depth test LESS, depth written; no colour written; stencil test and blending off. A framebuffer object
@@ -36,7 +37,8 @@
  *                and 1. Under a mask in alpha: blending DST_ALPHA, ONE for colour; alpha is not written, or by
  *                blend_once ZERO, ZERO. Under one in a texture: no stencil test
  *     FINAL      depth test LESS, depth not written; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA; stencil test off
- *     in each    viewport 0, 0, width, height of the target; colour written (but where said); the target's framebuffer
+ *     in each    viewport 0, 0 and gn_plan.viewport, the target's size where masks are not smaller (in a DEPTH that is not
+ *                into the target gn_plan.mask_size); colour written (but where said); the target's framebuffer
  *                bound (but where said); where counts are made in colour dither on; culling, polygon offset and depth clamp
  *                off, and so are scissor test and depth bounds test but in LIGHT; front face CCW; blend equation ADD;
  *                no program in use; no buffer bound; all vertex attribute arrays disabled
@@ -44,7 +46,8 @@
  *                bounds, clear depth and clear stencil are as in a new context, but the viewport and the scissor's box,
  *                which are the target's; the target's framebuffer is bound. Of plans that count in colour dither is on
  *                and the target's alpha 1 if the count was there; with masks in textures TEXTURE0 is active, without a
- *                2D texture. Nothing else was ever touched: other textures, clear colour, pixel store, attribute pointers
+ *                2D texture, from the first step after them on; where gn_gles_begin() made images no renderbuffer is
+ *                bound. Nothing else was ever touched: other textures, clear colour, pixel store, attribute pointers
  *                but that of array 0
  *
  * Errors come as gn_result, sentences from gn_message() of the context; drivers' logs go to its port. Walking allocates
@@ -70,6 +73,7 @@ extern "C" {
  * the pass (gn_step.lights[i]) with channel i of gn_mask(), which is 0 or 1. Where gn_plan.mask is GN_MASK_TEXTURE and the
  * step says receivers: a program with GN_MASKED defined before both, the texture gn_gles_mask() bound to the unit in the
  * uniform gn_mask_texture. Else, without GN_MASKED, the mask is 1, and stencil test or blending do the rest.
+ * GN_MEDIUMP defined too: the place is mediump even where fragment shaders have highp.
  * The place is divided by w where the texture is read, and by nothing else: screen positions are not linear in
  * perspective, and half floats do no arithmetic on them (DESIGN.md, decision 12). */
 #define GN_GLSL_MASK_VERTEX                                                                                            \
@@ -84,7 +88,7 @@ extern "C" {
     "}\n"
 #define GN_GLSL_MASK_FRAGMENT                                                                                          \
     "#ifdef GN_MASKED\n"                                                                                               \
-    "#ifdef GL_FRAGMENT_PRECISION_HIGH\n"                                                                              \
+    "#if defined(GL_FRAGMENT_PRECISION_HIGH) && !defined(GN_MEDIUMP)\n"                                                \
     "varying highp vec3 gn_mask_at;\n"                                                                                 \
     "#else\n"                                                                                                          \
     "varying mediump vec3 gn_mask_at;\n"                                                                               \

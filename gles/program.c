@@ -87,13 +87,13 @@ int gni_make_flat_program(gn_gles *g, gni_program *out, const char *name, const 
     return 1;
 }
 
-int gni_make_reader(gn_gles *g, gni_reader *out, const char *name, const char *fragment)
+int gni_make_reader(gn_gles *g, gni_reader *out, const char *name, const char *defines, const char *fragment)
 {
     const gn_gl *gl = &g->gl;
 
     if (out->name)
         return 1;
-    out->name = gni_make_program(g, name, "", gni_shader_quad_vert, fragment);
+    out->name = gni_make_program(g, name, defines, gni_shader_quad_vert, fragment);
     if (!out->name)
         return 0;
     out->texture = gl->glGetUniformLocation(out->name, "u_texture");

@@ -163,10 +163,12 @@ static gn_result make(gn_gles *g, const gn_plan *plan)
 
 gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan)
 {
+    const char *const defines = gn_target_can(&plan->target, GN_CAN_FRAGMENT_HIGHP) ? "" : "#define GN_MEDIUMP\n";
+
     if (plan->mask_count == 0)
         return GN_OK;
-    if (!gni_make_reader(g, &g->resolve, "resolve", gni_shader_resolve_frag) ||
-        !gni_make_reader(g, &g->shade, "shade", gni_shader_shade_frag))
+    if (!gni_make_reader(g, &g->resolve, "resolve", defines, gni_shader_resolve_frag) ||
+        !gni_make_reader(g, &g->shade, "shade", defines, gni_shader_shade_frag))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses a shader of masks: see the log");
     return are_there(&g->images, plan) ? GN_OK : make(g, plan);
 }

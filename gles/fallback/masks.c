@@ -88,8 +88,7 @@ static void copy(gn_gles *g, const gn_step *step)
 }
 
 /* Only surfaces: the background has the depth that was cleared to, and quads are drawn two steps before it. */
-static const gni_state multiply = {
-    .color_mask = COLOR, .depth_func = GL_GREATER, .blend_destination = GL_SRC_COLOR};
+static const gni_state multiply = {.color_mask = COLOR, .depth_func = GL_GREATER, .blend_destination = GL_SRC_COLOR};
 
 static void set_depth(gn_gles *g, int before_background)
 {

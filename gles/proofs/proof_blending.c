@@ -15,9 +15,17 @@ static int ramp_level(const gni_proofs *p, int x, int y)
     return (x + CELL * y) & top_level(p);
 }
 
-static int red_level(const gni_proofs *p, int x, int y)
+static int channel_level(const gni_proofs *p, int x, int y, int channel)
 {
-    return (p->pixels[4 * (p->width * y + x)] * top_level(p) + 127) / 255;
+    return (p->pixels[4 * (p->width * y + x) + channel] * top_level(p) + 127) / 255;
+}
+
+/* Alpha is counted in as red is, where it has as many bits: -1 where the two went different ways. */
+static int level_at(const gni_proofs *p, int x, int y)
+{
+    const int red = channel_level(p, x, y, 0);
+
+    return p->target->alpha_bits != p->target->red_bits || channel_level(p, x, y, 3) == red ? red : -1;
 }
 
 /* The bits of a level one by one, added to the pixels whose number has them. No shader does it: one that reads
@@ -56,7 +64,7 @@ static int levels_are(gni_proofs *p, int (*wanted)(int level, int top), const ch
 {
     for (int y = 0; y < p->height; y++)
         for (int x = 0; x < p->width; x++) {
-            const int level = ramp_level(p, x, y), right = wanted(level, top_level(p)), got = red_level(p, x, y);
+            const int level = ramp_level(p, x, y), right = wanted(level, top_level(p)), got = level_at(p, x, y);
 
             if (got != right)
                 return gni_failed(p, "%s level %d gave %d, not %d", what, level, got, right);
@@ -138,7 +146,7 @@ static int halves(gni_proofs *p)
     for (int y = 0; y < p->height; y++)
         for (int x = 0; x < p->width; x++) {
             const int times = x < bits ? x : bits, halved = times ? (top + 1) >> times : top;
-            const int right = y < CELL / 2 ? top : halved, got = red_level(p, x, y);
+            const int right = y < CELL / 2 ? top : halved, got = level_at(p, x, y);
 
             if (got != right)
                 return gni_failed(p, "full halved %d times%s is %d, not %d", times,

@@ -83,28 +83,59 @@ static int read(gni_proofs *p)
 
 static const int is_red[4] = {255, 0, 0, -1}, is_black[4] = {0, 0, 0, -1}, is_blue[4] = {0, 0, 255, -1};
 
-/* Counts are made there: single steps of red add up to every level. */
-static int adds_steps(gni_proofs *p, int top)
+/* A block of rows starts at each of these levels. */
+static int start_of(int y, int top)
+{
+    return y < 5 ? 0 : y < 10 ? top / 2 : top - 8;
+}
+
+/* Column x has x + 1 steps more than its start, stopped at the top; and with `less` as many less again, stopped at 0. */
+static int levels_are_stepped(gni_proofs *p, int top, int less)
+{
+    if (!read(p))
+        return 0;
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            const int more = start_of(y, top) + x + 1 < top ? start_of(y, top) + x + 1 : top;
+            const int wanted = !less ? more : more > x + 1 ? more - x - 1 : 0;
+            const int got = (p->pixels[4 * (SIZE * y + x)] * top + 127) / 255;
+
+            if (got != wanted)
+                return gni_failed(p, "%d steps of 1/%d %s from level %d are level %d", x + 1, top,
+                                  less ? "added and subtracted" : "added", start_of(y, top), got);
+        }
+    return 1;
+}
+
+static void step_columns(gni_proofs *p, int top, GLenum equation)
 {
     const float step = 1.0f / (float)top, color[4] = {step, step, step, step};
 
-    gni_fresh_state(p);
-    p->gl->glClearColor(0.0f, 0.0f, 0.0f, 0.0f);
-    p->gl->glClear(GL_COLOR_BUFFER_BIT);
     p->gl->glEnable(GL_BLEND);
+    p->gl->glBlendEquation(equation);
     p->gl->glBlendFunc(GL_ONE, GL_ONE);
     for (int x = 0; x < SIZE; x++)
         gni_draw_rectangle(p, x, 0, SIZE - x, SIZE, 0.0f, 0, color);
+    p->gl->glBlendEquation(GL_FUNC_ADD);
     p->gl->glDisable(GL_BLEND);
-    if (!read(p))
-        return 0;
-    for (int x = 0; x < SIZE; x++) {
-        const int wanted = x + 1 < top ? x + 1 : top, got = (p->pixels[4 * x] * top + 127) / 255;
+}
 
-        if (got != wanted)
-            return gni_failed(p, "%d steps of 1/%d added are level %d", x + 1, top, got);
+/* Counts are made there: single steps add up, and down again where subtracting is offered. */
+static int adds_steps(gni_proofs *p, int top)
+{
+    gni_fresh_state(p);
+    for (int y = 0; y < SIZE; y += 5) {
+        const float start = (float)start_of(y, top) / (float)top, color[4] = {start, start, start, start};
+
+        gni_draw_rectangle(p, 0, y, SIZE, SIZE - y, 0.0f, 0, color);
     }
-    return 1;
+    step_columns(p, top, GL_FUNC_ADD);
+    if (!levels_are_stepped(p, top, 0))
+        return 0;
+    if (!gni_proofs_can(p, GN_CAN_BLEND_SUBTRACT))
+        return 1;
+    step_columns(p, top, 0x800B); /* GL_FUNC_REVERSE_SUBTRACT */
+    return levels_are_stepped(p, top, 1);
 }
 
 static int holds_color(gni_proofs *p, GLenum format, GLenum type, int top)

@@ -2,7 +2,7 @@
 //
 // u_weights  times the count's channels, in levels: their sum is u_level where a pixel is lit. Whole numbers up to 255:
 //            half floats have them
-#ifdef GL_FRAGMENT_PRECISION_HIGH
+#if defined(GL_FRAGMENT_PRECISION_HIGH) && !defined(GN_MEDIUMP)
 varying highp vec2 v_at;
 #else
 varying mediump vec2 v_at;

@@ -2,7 +2,7 @@
 //
 // u_unused  1 in channels that are no light's
 // u_dimmed  what one shadow leaves
-#ifdef GL_FRAGMENT_PRECISION_HIGH
+#if defined(GL_FRAGMENT_PRECISION_HIGH) && !defined(GN_MEDIUMP)
 varying highp vec2 v_at;
 #else
 varying mediump vec2 v_at;

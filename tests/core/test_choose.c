@@ -155,6 +155,27 @@ static void the_chain_goes_down_step_by_step(void **state)
     assert_non_null(strstr(gn_message(test_context), "stencil, which is not offered, and none without"));
 }
 
+/* Whatever is asked for of a target that can do nothing is refused, and its bound is a number. */
+static void what_can_do_nothing_is_refused(void **state)
+{
+    const gn_target kept = f.scene.target;
+
+    (void)state;
+    f.scene.target.proven = f.scene.target.advertised = 0;
+    for (int reads = 0; reads < 2; reads++)
+        for (int m = 0; m < GN_METHOD_TOTAL; m++) {
+            f.scene.reads_masks = reads;
+            f.scene.method = (gn_method)m;
+            assert_true(gn_plan_bound(&f.scene) > 0);
+            f.memory = realloc(f.memory, gn_plan_bound(&f.scene));
+            f.size = gn_plan_bound(&f.scene);
+            assert_int_equal(gn_plan_make(test_context, &f.scene, f.memory, f.size, &f.plan), GN_E_DEVICE);
+        }
+    f.scene.target = kept;
+    f.scene.method = GN_METHOD_AUTO;
+    f.scene.reads_masks = 0;
+}
+
 static void one_sided_may_be_asked_for(void **state)
 {
     (void)state;
@@ -290,6 +311,7 @@ int main(void)
         cmocka_unit_test(lists_of_capabilities_are_parsed),
         cmocka_unit_test(names_are_read_and_written),
         cmocka_unit_test_setup_teardown(the_chain_goes_down_step_by_step, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(what_can_do_nothing_is_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(one_sided_may_be_asked_for, set_up, tear_down),
         cmocka_unit_test_setup_teardown(far_ends_go_down_too, set_up, tear_down),
         cmocka_unit_test_setup_teardown(overflow_is_warned_of, set_up, tear_down),

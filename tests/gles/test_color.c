@@ -190,6 +190,60 @@ static void shadows_dim_a_lit_frame(void **state)
     close_scene();
 }
 
+/* Lights with bounds, and things that do not receive: a dimmed frame is the same by every method, and dims no background. */
+static void every_method_dims_alike(void **state)
+{
+    static const struct {
+        gn_method method;
+        uint32_t hidden;
+        double dimmed;
+    } ways[] = {{GN_METHOD_STENCIL, 0, 0.5},
+                {GN_METHOD_SIGNED, 0, 0.3},
+                {GN_METHOD_SIGNED, 1u << GN_CAN_ALPHA, 0.5},
+                {GN_METHOD_ALPHA, 0, 0.7},
+                {GN_METHOD_ALPHA, 0, 0.5},
+                {GN_METHOD_ALPHA, 0, 0.3},
+                {GN_METHOD_ALPHA, 1u << GN_CAN_BLEND_MINMAX, 0.7}};
+    static const char *const names[] = {"hall", "offices", "colours"};
+    static uint8_t lit[BYTES], right[BYTES], rgba[BYTES];
+    int maximum = 0;
+
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        open_scene(names[n]);
+        for (size_t i = 0; i < loaded.instance_count; i += 3)
+            loaded.instances[i].receives = 0;
+        for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
+            stage_wish wish = wish_for(GN_METHOD_ZFAIL, 0);
+            int kept = 0, dimmed = 0;
+
+            wish.unbounded = 0;
+            wish.light_count = loaded.light_count < 3 ? (uint32_t)loaded.light_count : 3;
+            wish.shade = GN_SHADE_ATTENUATE;
+            wish.dimmed = ways[w].dimmed;
+            wish.casting = 0;
+            draw(&wish, 0, 1, lit);
+            wish.casting = 1;
+            draw(&wish, 0, 1, right);
+            wish.method = ways[w].method;
+            draw(&wish, ways[w].hidden, 1, rgba);
+            if (s->plan->warnings & 1u << GN_WARN_RANGE)
+                continue;
+            maximum += s->plan->lights[0].color.by_maximum;
+            /* in an image shadows of several lights are one product, elsewhere each is rounded */
+            if (count_differing(right, rgba, 3) > (ways[w].hidden == 1u << GN_CAN_ALPHA ? 40 : 0))
+                fail_msg("%s, way %lu: %d pixels differ", names[n], (unsigned long)w, count_differing(right, rgba, 3));
+            for (int i = 0; i < BYTES; i += 4) {
+                kept += memcmp(lit + i, rgba + i, 3) == 0;
+                dimmed += rgba[i] < lit[i];
+            }
+            assert_true(kept > 500 && dimmed > 500);
+        }
+        close_scene();
+    }
+    assert_true(maximum > 0);
+}
+
 /* Alpha is 1 when the frame is done, as compositors want it. */
 static void alpha_is_left_full(void **state)
 {
@@ -231,7 +285,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(counts_have_the_bits_of_a_stencil),
                                        cmocka_unit_test(one_pass_adds_what_several_add),
-                                       cmocka_unit_test(shadows_dim_a_lit_frame), cmocka_unit_test(alpha_is_left_full),
+                                       cmocka_unit_test(shadows_dim_a_lit_frame),
+                                       cmocka_unit_test(every_method_dims_alike),
+                                       cmocka_unit_test(alpha_is_left_full),
                                        cmocka_unit_test(frames_take_no_memory)};
 
     return cmocka_run_group_tests_name("color", tests, NULL, NULL);

@@ -33,12 +33,8 @@ static void close_scene(void)
 
 static void draw_mask(gn_method method, uint32_t scale, gn_upsample upsample)
 {
-    const stage_wish wish = {.method = method,
-                             .casting = 1,
-                             .light_count = 1,
-                             .unbounded = 1,
-                             .scale = scale,
-                             .upsample = upsample};
+    const stage_wish wish = {
+        .method = method, .casting = 1, .light_count = 1, .unbounded = 1, .scale = scale, .upsample = upsample};
     char message[SCENE_MESSAGE] = "";
 
     if (stage_plan(s, &wish, message) != 0 || !stage_draw_mask(s, 0, message))
@@ -94,8 +90,8 @@ static void a_small_mask_is_a_small_frames(void **state)
                 for (size_t i = 0; i < pixels; i++) {
                     shadowed += mask[i] == 0;
                     if (mask[i] != right[i])
-                        fail_msg("%s at scale %u, method %d: mask pixel %lu is %d, not %d", scenes[sc],
-                                 (unsigned)scale, (int)methods[m], (unsigned long)i, mask[i], right[i]);
+                        fail_msg("%s at scale %u, method %d: mask pixel %lu is %d, not %d", scenes[sc], (unsigned)scale,
+                                 (int)methods[m], (unsigned long)i, mask[i], right[i]);
                 }
                 free(mask);
             }
@@ -134,7 +130,8 @@ static void odd_sizes_are_right(void **state)
 
                         for (int dy = -(int)scale; dy <= (int)scale; dy++)
                             for (int dx = -(int)scale; dx <= (int)scale; dx++)
-                                is_plain &= memcmp(full + 4 * at, full + 4 * (size_t)((long)at + dy * (long)width + dx), 2) == 0;
+                                is_plain &= memcmp(full + 4 * at, full + 4 * (size_t)((long)at + dy * (long)width + dx),
+                                                   2) == 0;
                         wrong += is_plain && memcmp(full + 4 * at, small + 4 * at, 2) != 0;
                     }
                 if (wrong)

@@ -302,6 +302,7 @@ static void the_promised_state_holds_in_colour(void **state)
         f.scene.reads_masks = f.scene.merges_lights = 1;
         f.scene.method = ways[way].method;
         f.scene.shade = ways[way].shade;
+        f.scene.discards = 1;
         f.scene.target.hidden |= ways[way].hidden;
         f.memory = realloc(f.memory, gn_plan_bound(&f.scene));
         f.size = gn_plan_bound(&f.scene);

@@ -88,6 +88,7 @@ static const way ways[] = {
     {"signed-fbo", GN_METHOD_SIGNED, BIT(GN_CAN_ALPHA), 0, 0, 0, 0, 0},
     {"alpha", GN_METHOD_ALPHA, 0, 0, 0, 0, 0, 0},
     {"screen", GN_METHOD_SCREEN, 0, 0, 0, 0, 0, 0},
+    {"mediump", GN_METHOD_COUNT, BIT(GN_CAN_FRAGMENT_HIGHP), 0, 0, 0, 0, 0},
 };
 enum { DRIVERS = sizeof drivers / sizeof drivers[0], WAYS = sizeof ways / sizeof ways[0] };
 enum { IS_DRAWN = 4 }; /* in masks, beside lit 1 and visible 2 */
@@ -144,6 +145,23 @@ static int is_wanted(const char *list, const char *name)
         if (strncmp(at, name, length) == 0 && (at[length] == ',' || at[length] == '\0'))
             return 1;
     return 0;
+}
+
+/* 1 where each name of the list is a way's. */
+static int are_ways(const char *list)
+{
+    for (const char *at = list; at; at = strchr(at, ',') ? strchr(at, ',') + 1 : NULL) {
+        int known = 0;
+
+        for (int w = 0; w < WAYS; w++) {
+            const size_t length = strlen(ways[w].name);
+
+            known |= strncmp(at, ways[w].name, length) == 0 && (at[length] == ',' || at[length] == '\0');
+        }
+        if (!known)
+            return 0;
+    }
+    return 1;
 }
 
 /* What the plan says beforehand: a warning, or of a count in colour that a caster is cut. */
@@ -398,6 +416,8 @@ int main(int count, char **arguments)
             wanted_ways = arguments[++at];
         else if (strcmp(arguments[at], "--size") != 0 || sscanf(arguments[++at], "%ux%u", &width, &height) != 2)
             return fprintf(stderr, "truth_table: what is %s?\n", arguments[at]), 2;
+    if (!are_ways(wanted_ways))
+        return fprintf(stderr, "truth_table: no such way: %s\n", wanted_ways), 2;
     if (at >= count)
         return fprintf(stderr, "usage: truth_table [--size WxH] [--drivers LIST] SCENES_DIR [SCENE...]\n"), 2;
     snprintf(path, sizeof path, "%s/scenes.txt", arguments[at]);

@@ -360,6 +360,7 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
     frame.reads_masks = 1;
     frame.lights_per_pass = wish->lights_per_pass ? wish->lights_per_pass : s->shader_lights;
     frame.shade = wish->shade;
+    frame.dimmed = wish->dimmed;
     frame.merges_lights = wish->merges_lights;
     frame.scale = wish->scale;
     frame.upsample = wish->upsample;

@@ -23,9 +23,10 @@ enum {
     STAGE_TEXTURED = 1,
     STAGE_CUT = 2,
     STAGE_FLAT = 4,
-    STAGE_MASKED = 8, /* under masks in a texture */
-    STAGE_LIGHT_SHIFT = 4,
-    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 4
+    STAGE_MASKED = 8,   /* under masks in a texture */
+    STAGE_MEDIUMP = 16, /* no highp */
+    STAGE_LIGHT_SHIFT = 5,
+    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 5
 };
 
 /* Part of a range that 16-bit indices reach. */
@@ -120,6 +121,7 @@ typedef struct stage_wish {
     unsigned without; /* of gn_measure */
     int keeps;        /* shadows from frame to frame, in the stage's cache */
     gn_shade shade;
+    double dimmed; /* 0: a half */
     int merges_lights;
     uint32_t scale; /* of masks; 0: 1 */
     gn_upsample upsample;

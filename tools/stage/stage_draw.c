@@ -171,6 +171,7 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
         const unsigned kind = (material->texture != SCENE_NONE ? STAGE_TEXTURED : 0u) |
                               (material->alpha == SCENE_MASK ? STAGE_CUT : 0u) | (look->flat ? STAGE_FLAT : 0u) |
                               (look->mask ? STAGE_MASKED : 0u) |
+                              (gn_target_can(&s->target, GN_CAN_FRAGMENT_HIGHP) ? 0u : STAGE_MEDIUMP) |
                               (look->flat ? 0u : look->light_count << STAGE_LIGHT_SHIFT);
         const stage_program *p;
 

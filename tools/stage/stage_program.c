@@ -106,11 +106,11 @@ stage_program *stage_use(stage *s, unsigned kind)
 
         snprintf(defines, sizeof defines,
                  "#define LIGHTS %u\n#define TEXTURED %d\n#define CUT %d\n#define FLAT %d\n#define FROM_BEHIND %s\n"
-                 "#define PRECISION %s\n%s",
+                 "#define PRECISION %s\n%s%s",
                  kind >> STAGE_LIGHT_SHIFT, !!(kind & STAGE_TEXTURED), !!(kind & STAGE_CUT), !!(kind & STAGE_FLAT),
                  gn_target_can(&s->target, GN_CAN_FRONT_FACING) ? "!gl_FrontFacing" : "(dot(n, v) < 0.0)",
-                 gn_target_can(&s->target, GN_CAN_FRAGMENT_HIGHP) ? "highp" : "mediump",
-                 kind & STAGE_MASKED ? "#define GN_MASKED\n" : "");
+                 kind & STAGE_MEDIUMP ? "mediump" : "highp", kind & STAGE_MASKED ? "#define GN_MASKED\n" : "",
+                 kind & STAGE_MEDIUMP ? "#define GN_MEDIUMP\n" : "");
         p->name = link(s->gl, defines, gni_shader_surface_vert, gni_shader_surface_frag);
         if (!p->name)
             return NULL;
