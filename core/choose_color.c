@@ -72,6 +72,25 @@ static int is_small(const gn_scene *s)
     return s->scale > 1;
 }
 
+int gni_carries_depth(const gn_scene *s)
+{
+    return is_small(s) && s->upsample == GN_UPSAMPLE_DEPTH;
+}
+
+/* Whether masks can carry depth, where they must. */
+static int can_carry_depth(const gn_scene *s, const char *name, gni_text *why)
+{
+    const gn_capability needs[2] = {GN_CAN_FBO_RGBA8, GN_CAN_FRAGMENT_HIGHP};
+
+    for (int i = 0; i < 2 && gni_carries_depth(s); i++)
+        if (!can(s, needs[i])) {
+            gni_put(why, "%s upsampled by depth needs %s, which %s", name, gn_capability_name(needs[i]),
+                    gni_why_not(&s->target, needs[i]));
+            return 0;
+        }
+    return 1;
+}
+
 static int counts_in_alpha(const gn_scene *s)
 {
     return !is_small(s) && can(s, GN_CAN_ALPHA) && s->target.alpha_bits >= LEAST_ALPHA;
@@ -102,7 +121,7 @@ static int can_have_image(const gn_scene *s, const char *name, gni_text *why)
         gni_put(why, "%s needs a depth buffer in framebuffer objects (0 bits)", name);
         return 0;
     }
-    return reaches_host(s, name, why);
+    return can_carry_depth(s, name, why) && reaches_host(s, name, why);
 }
 
 int gni_color_is_possible(const gn_scene *s, gn_method method, gni_text *why)
@@ -124,7 +143,9 @@ int gni_color_is_possible(const gn_scene *s, gn_method method, gni_text *why)
     default:
         if (least < LEAST_COLOR)
             gni_put(why, "screen needs %d bits of colour (%d)", LEAST_COLOR, least);
-        return least >= LEAST_COLOR && reaches_host(s, "screen", why);
+        if (gni_carries_depth(s))
+            gni_put(why, "screen has no room for depth in its masks: upsample by nearest or bilinear");
+        return least >= LEAST_COLOR && !gni_carries_depth(s) && reaches_host(s, "screen", why);
     }
 }
 
@@ -235,7 +256,7 @@ int gni_stencil_is_possible(const gn_scene *s, const char *name, gni_text *why)
                 "%s at scale %lu needs packed-depth-stencil, 24 bits of depth (%d) and a host that reads masks from a "
                 "texture",
                 name, (unsigned long)s->scale, s->target.depth_bits);
-    return !is_small(s) || can_have_stencil_image(s);
+    return !is_small(s) || (can_have_stencil_image(s) && can_carry_depth(s, name, why));
 }
 
 static int may_take_stencil_to_texture(const gn_scene *s, const gni_choice *choice)
@@ -290,13 +311,14 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
     choice->dimmed = s->shade != GN_SHADE_ATTENUATE ? 0.0 : s->dimmed > 0.0 ? s->dimmed : 0.5;
     choice->lights_per_mask = 1;
     if (choice->color.place == GN_PLACE_STENCIL && (is_small(s) || takes_stencil_to_texture(s, choice))) {
-        choice->image.format = choice->mask_format = can(s, GN_CAN_FBO_RGBA4) ? GN_FORMAT_RGBA4 : GN_FORMAT_RGBA8;
+        choice->image.format = choice->mask_format =
+            can(s, GN_CAN_FBO_RGBA4) && !gni_carries_depth(s) ? GN_FORMAT_RGBA4 : GN_FORMAT_RGBA8;
         choice->image.depth_bits = 24;
         choice->image.stencil_bits = 8;
         if (!is_small(s))
             gni_put(&choice->text, "; masks are made in a texture, so that one pass adds several lights");
     } else if (choice->color.place == GN_PLACE_IMAGE) {
-        choice->mask_format = find_mask_format(s);
+        choice->mask_format = gni_carries_depth(s) ? GN_FORMAT_RGBA8 : find_mask_format(s);
     } else if (choice->color.place == GN_PLACE_COLOR) {
         choice->mask_format = GN_FORMAT_RGB565;
     }
@@ -309,5 +331,7 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
         return;
     if (bits_of(choice->mask_format, 3) == 0)
         most = 3;
+    if (gni_carries_depth(s)) /* in blue and alpha */
+        most = 2;
     choice->lights_per_mask = s->lights_per_pass && s->lights_per_pass < most ? s->lights_per_pass : most;
 }

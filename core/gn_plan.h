@@ -119,8 +119,11 @@ enum {
 
 /* How a mask that is smaller than the frame is read (Roettger 2002, section 4.5). */
 typedef enum gn_upsample {
-    GN_UPSAMPLE_NEAREST, /* blocks of pixels have one mask */
-    GN_UPSAMPLE_BILINEAR /* between them it is neither 0 nor 1 */
+    GN_UPSAMPLE_NEAREST,  /* blocks of pixels have one mask */
+    GN_UPSAMPLE_BILINEAR, /* between them it is neither 0 nor 1 */
+    /* The same where the four masks around lie in the receiver's plane; elsewhere the mask of the one that is nearest to it
+     * in depth, which masks carry: at most two lights in a pass, and highp in fragment shaders */
+    GN_UPSAMPLE_DEPTH
 } gn_upsample;
 
 /* What shadows do to a frame (Roettger 2002, section 4.3). */
@@ -215,7 +218,9 @@ typedef enum gn_draw {
     GN_DRAW_AMBIENT, /* every opaque object: depth and ambient light together */
     GN_DRAW_LIGHT,   /* objects that receive (or those that do not), added, under the mask of `lights` */
     GN_DRAW_FINAL,   /* transparent things and labels: McGuire's last pass */
-    GN_DRAW_DEPTH,   /* every opaque object, depth alone: no colour is written. Into whatever is bound */
+    /* Every opaque object, depth alone, into whatever is bound. With GN_UPSAMPLE_DEPTH gn_mask_depth_color() is written,
+     * else no colour */
+    GN_DRAW_DEPTH,
     /* As if nothing cast, for GN_SHADE_ATTENUATE and BLACK: depth and all light of every opaque object; and again, once
      * shadows have dimmed that, of those that do not receive (receivers 0), over it */
     GN_DRAW_LIT,
@@ -358,6 +363,9 @@ typedef struct gn_plan {
     /* Of the host's passes: the target's size, or a little more, so that masks have whole pixels: matrices are made for it */
     uint32_t viewport[2];
     uint32_t mask_size[2]; /* viewport / scale: of images and mask textures */
+    /* GN_UPSAMPLE_DEPTH: what masks carry is (mask_depth[0] + mask_depth[1] z) / w of clip space, from 0 to 1, which is
+     * linear on the image */
+    double mask_depth[2];
     gn_traffic traffic;
     double clear_depth; /* 1, or the depth of zfar */
     /* View distances that depth 0 and 1 stand for. [0] is znear, or up to an eighth less, so that floats tell it from

@@ -296,6 +296,8 @@ int gni_format_bytes(gn_format format); /* of a pixel */
 uint32_t gni_color_limit(const gn_scene *s, gn_method method);
 
 /* What is meant where AUTO is asked for; AUTO when nothing is possible. */
+/* Whether masks carry depth. */
+int gni_carries_depth(const gn_scene *s);
 gn_method gni_pick(const gn_scene *scene);
 /* Counts of wrapping bits, and above them as many as name a patch. */
 void gni_patch_layout(gn_stencil_layout *layout, uint32_t patch_count);

@@ -179,14 +179,18 @@ static void find_depth_limit(gni_draft *d)
     const double half =
         0.5 * d->plan->scale * fmin((c->top - c->bottom) / s->target.height, (c->right - c->left) / s->target.width);
     const double steps = ldexp(0.25, s->target.depth_bits);
-    double farthest = -INFINITY;
+    double farthest = -INFINITY, nearest = INFINITY;
 
     for (uint32_t i = 0; i < s->object_count; i++) {
         if (!(s->objects[i].flags & GN_RECEIVES) || !gni_may_be_seen(&d->seen, &d->boxes[i]))
             continue;
-        for (int corner = 0; corner < 8; corner++)
+        for (int corner = 0; corner < 8; corner++) {
             farthest = fmax(farthest, -d->boxes[i].points[corner][2]);
+            nearest = fmin(nearest, -d->boxes[i].points[corner][2]);
+        }
     }
+    d->plan->mask_depth[0] = c->orthographic ? 0.5 : fmax(c->znear, nearest < INFINITY ? nearest : 0.0);
+    d->plan->mask_depth[1] = c->orthographic ? 0.5 : 0.0;
     d->plan->deepest_receiver = c->zfar != 0.0 ? fmin(farthest, c->zfar) : farthest;
     if (c->orthographic)
         d->plan->depth_limit = (d->plan->depth_range[1] - d->plan->depth_range[0]) / steps > half ? c->znear : INFINITY;

@@ -92,7 +92,7 @@ gn_result gni_check_scene(gn_context *context, const gn_scene *s)
         return gn_fail(context, GN_E_ARG, "plan: a shadow leaves %g of the light, not 0 to 1", s->dimmed);
     if (s->scale > 4 || s->scale == 3)
         return gn_fail(context, GN_E_ARG, "plan: masks at scale 1, 2 or 4 (%lu)", (unsigned long)s->scale);
-    if ((unsigned)s->upsample > GN_UPSAMPLE_BILINEAR)
+    if ((unsigned)s->upsample > GN_UPSAMPLE_DEPTH)
         return gn_fail(context, GN_E_ARG, "plan: no upsampling has number %d", (int)s->upsample);
     if (s->lights_per_pass > GN_MOST_MASKED)
         return gn_fail(context, GN_E_ARG, "plan: %lu lights in a pass, at most %d", (unsigned long)s->lights_per_pass,

@@ -237,7 +237,7 @@ static gn_result add_colored(gni_draft *d)
 
     d->first_of_batch = record;
     gni_start_color(d);
-    if (!is_image || d->image_is_used)
+    if (!is_image || d->image_is_used || gni_carries_depth(d->scene))
         gni_add_step(d, GN_STEP_ZERO, GN_DRAW_NOTHING, d->light, 0);
     result = add_casters(d);
     if (d->plan->record_count == record) {

@@ -98,6 +98,7 @@ void gn_gles_destroy(gn_gles *g)
         g->gl.glDeleteProgram(g->faced.name);
         g->gl.glDeleteProgram(g->resolve.name);
         g->gl.glDeleteProgram(g->shade.name);
+        g->gl.glDeleteProgram(g->carry.name);
         gni_delete_images(g);
     }
     if (g->images.masks)

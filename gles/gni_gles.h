@@ -79,10 +79,10 @@ struct gn_gles {
     GLuint quad, indices, cached; /* cached: of a shadow cache */
     uint32_t cache_id;            /* what is in it, of which version, and how large it is */
     uint32_t cache_version, cached_capacity;
-    gni_program colored, counted;   /* in one colour, and in none */
-    gni_program sided;              /* discards one side of triangles, in no colour; its name is 0 until it is made */
-    gni_program sided_color, faced; /* the same in one colour; a colour a side: as are they */
-    gni_reader resolve, shade;      /* and they */
+    gni_program colored, counted;     /* in one colour, and in none */
+    gni_program sided;                /* discards one side of triangles, in no colour; its name is 0 until it is made */
+    gni_program sided_color, faced;   /* the same in one colour; a colour a side: as are they */
+    gni_reader resolve, shade, carry; /* and they */
     gni_images images;
     gn_into into;              /* what is bound */
     uint32_t box[4];           /* around the lights of the pass at hand */

@@ -25,7 +25,7 @@ const char help_render[] =
     "alpha where a surface is\n"
     "  --method NAME         see `gnomon methods` [auto]\n"
     "  --scale S             masks of a pixel for S x S of the frame's: 1, 2 or 4 [1]\n"
-    "  --upsample HOW        nearest or bilinear, for scale 2 and 4 [bilinear]\n"
+    "  --upsample HOW        nearest, bilinear or depth, for scale 2 and 4 [bilinear]\n"
     "  --shade HOW           additive: lights are added to ambient; attenuate: shadows dim a lit frame; black "
     "[additive]\n"
     "  --bits R,G,B,A,D,S    of the target, as near as the platform has [8,8,8,8,24,8]\n"
@@ -410,18 +410,18 @@ static int parse_bits(job *j)
 
 static int parse_upsample(job *j)
 {
-    static const char *const names[] = {"nearest", "bilinear"};
+    static const char *const names[] = {"nearest", "bilinear", "depth"};
 
     if (j->scale != 1 && j->scale != 2 && j->scale != 4) {
         say("--scale: takes 1, 2 or 4 (%ld)", j->scale);
         return 0;
     }
-    for (int i = 0; i < 2; i++)
+    for (int i = 0; i < 3; i++)
         if (strcmp(j->upsample_name, names[i]) == 0) {
             j->upsample = (gn_upsample)i;
             return 1;
         }
-    say("--upsample: takes nearest or bilinear (%s)", j->upsample_name);
+    say("--upsample: takes nearest, bilinear or depth (%s)", j->upsample_name);
     return 0;
 }
 

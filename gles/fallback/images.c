@@ -2,6 +2,7 @@
  * or the target lends, and textures of masks. Made when a plan first needs them, and anew when it needs others. */
 #include "../gni_gles.h"
 
+#include "shaders/carry.frag.h"
 #include "shaders/resolve.frag.h"
 #include "shaders/shade.frag.h"
 
@@ -168,7 +169,8 @@ gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan)
     if (plan->mask_count == 0)
         return GN_OK;
     if (!gni_make_reader(g, &g->resolve, "resolve", defines, gni_shader_resolve_frag) ||
-        !gni_make_reader(g, &g->shade, "shade", defines, gni_shader_shade_frag))
+        !gni_make_reader(g, &g->shade, "shade", defines, gni_shader_shade_frag) ||
+        !gni_make_reader(g, &g->carry, "carry", defines, gni_shader_carry_frag))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses a shader of masks: see the log");
     return are_there(&g->images, plan) ? GN_OK : make(g, plan);
 }

@@ -88,6 +88,17 @@ static void copy(gn_gles *g, const gn_step *step)
 }
 
 /* Only surfaces: the background has the depth that was cleared to, and quads are drawn two steps before it. */
+/* Depth is in the image that it was drawn into: until it is counted in, or in the first mask. */
+static void carry(gn_gles *g, const gn_step *step)
+{
+    const gni_state state = {.color_mask = ALL, .undithered = 1};
+    const gn_step everywhere = {.light = GN_NO_LIGHT};
+
+    use_reader(g, &g->carry, step->mask > 0 ? g->images.masks[0] : g->images.count);
+    gni_draw_reader(g, &everywhere, state);
+    g->gl.glBindTexture(GL_TEXTURE_2D, 0);
+}
+
 static const gni_state multiply = {.color_mask = COLOR, .depth_func = GL_GREATER, .blend_destination = GL_SRC_COLOR};
 
 static void set_depth(gn_gles *g, int before_background)
@@ -173,7 +184,10 @@ void gni_mask_step(gn_gles *g, const gn_step *step)
         clear_image(g);
         break;
     case GN_STEP_CLEAR_MASK:
-        fill(g, 1.0f);
+        if (g->plan->scale > 1 && g->plan->upsample == GN_UPSAMPLE_DEPTH)
+            carry(g, step);
+        else
+            fill(g, 1.0f);
         break;
     case GN_STEP_RESOLVE:
         resolve(g, step);

@@ -1,4 +1,5 @@
 /* test_small.c - masks smaller than the frame: what is in them, and what the frame makes of them. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,12 +43,12 @@ static void draw_mask(gn_method method, uint32_t scale, gn_upsample upsample)
     assert_int_equal(s->gl->glGetError(), GL_NO_ERROR);
 }
 
-/* Red of the first mask texture of the plan just drawn: [mask_size[1]][mask_size[0]], lowest row first. */
-static uint8_t *read_mask(void)
+/* The first mask texture of the plan just drawn: [mask_size[1]][mask_size[0]][4], lowest row first. */
+static uint8_t *read_texture(void)
 {
     const gn_gl *gl = s->gl;
     const uint32_t *size = s->plan->mask_size;
-    uint8_t *rgba = malloc((size_t)4 * size[0] * size[1]), *red = malloc((size_t)size[0] * size[1]);
+    uint8_t *rgba = malloc((size_t)4 * size[0] * size[1]);
     GLuint framebuffer;
 
     gl->glGenFramebuffers(1, &framebuffer);
@@ -57,7 +58,15 @@ static uint8_t *read_mask(void)
     gl->glReadPixels(0, 0, (GLsizei)size[0], (GLsizei)size[1], GL_RGBA, GL_UNSIGNED_BYTE, rgba);
     gl->glBindFramebuffer(GL_FRAMEBUFFER, s->target.framebuffer);
     gl->glDeleteFramebuffers(1, &framebuffer);
-    for (size_t i = 0; i < (size_t)size[0] * size[1]; i++)
+    return rgba;
+}
+
+static uint8_t *read_mask(void)
+{
+    const size_t pixels = (size_t)s->plan->mask_size[0] * s->plan->mask_size[1];
+    uint8_t *rgba = read_texture(), *red = malloc(pixels);
+
+    for (size_t i = 0; i < pixels; i++)
         red[i] = rgba[4 * i];
     free(rgba);
     return red;
@@ -144,6 +153,72 @@ static void odd_sizes_are_right(void **state)
     }
 }
 
+/* The depth that the masks of a frame twice as large carry: [HEIGHT][WIDTH], row 0 on top. */
+static void read_depth(const char *name, double depth[HEIGHT][WIDTH])
+{
+    uint8_t *rgba;
+
+    open_scene(name, 2 * WIDTH, 2 * HEIGHT);
+    draw_mask(GN_METHOD_COUNT, 2, GN_UPSAMPLE_DEPTH);
+    rgba = read_texture();
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            const uint8_t *at = rgba + 4 * (size_t)(WIDTH * (HEIGHT - 1 - y) + x);
+
+            depth[y][x] = at[2] / 255.0 + at[3] / 65025.0;
+        }
+    free(rgba);
+    close_scene();
+}
+
+/* Depth is linear on the image of a plane: where it bends there is an edge. */
+static int is_edge(double depth[HEIGHT][WIDTH], int x, int y)
+{
+    const double at = depth[y][x];
+
+    return fabs(depth[y][x - 1] + depth[y][x + 1] - 2.0 * at) > 0.02 * at ||
+           fabs(depth[y - 1][x] + depth[y + 1][x] - 2.0 * at) > 0.02 * at;
+}
+
+static int is_near_edge(double depth[HEIGHT][WIDTH], int x, int y)
+{
+    for (int dy = -2; dy <= 2; dy++)
+        for (int dx = -2; dx <= 2; dx++)
+            if (is_edge(depth, x + dx, y + dy))
+                return 1;
+    return 0;
+}
+
+/* Near edges of depth fewer pixels are wrong than by bilinear (the rest are borders of shadows there), and nowhere more. */
+static void depth_keeps_edges(void **state)
+{
+    static const char *const scenes[] = {"colours", "torus_knot", "cube_point", "pile_of_8", "courtyard"};
+    static double depth[HEIGHT][WIDTH];
+    static uint8_t full[4 * WIDTH * HEIGHT], small[4 * WIDTH * HEIGHT];
+    size_t wrong[2][2] = {{0, 0}, {0, 0}}; /* by bilinear, by depth: elsewhere, near an edge */
+
+    (void)state;
+    for (size_t sc = 0; sc < sizeof scenes / sizeof scenes[0]; sc++) {
+        read_depth(scenes[sc], depth);
+        open_scene(scenes[sc], WIDTH, HEIGHT);
+        draw_mask(GN_METHOD_COUNT, 1, GN_UPSAMPLE_NEAREST);
+        assert_true(platform_read_back(s->platform, full));
+        for (int way = 0; way < 2; way++) {
+            draw_mask(GN_METHOD_COUNT, 2, way ? GN_UPSAMPLE_DEPTH : GN_UPSAMPLE_BILINEAR);
+            assert_true(platform_read_back(s->platform, small));
+            for (int y = 3; y < HEIGHT - 3; y++)
+                for (int x = 3; x < WIDTH - 3; x++) {
+                    const size_t at = 4 * (size_t)(WIDTH * y + x);
+
+                    wrong[way][is_near_edge(depth, x, y)] += (full[at] > 127) != (small[at] > 127);
+                }
+        }
+        close_scene();
+    }
+    assert_true(wrong[1][0] <= wrong[0][0]);
+    assert_true(4 * wrong[1][1] < 3 * wrong[0][1]);
+}
+
 /* By the plan: what is counted into is a quarter, a sixteenth of the pixels. */
 static void traffic_of_images_falls(void **state)
 {
@@ -162,7 +237,7 @@ static void traffic_of_images_falls(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_small_mask_is_a_small_frames),
-                                       cmocka_unit_test(odd_sizes_are_right),
+                                       cmocka_unit_test(odd_sizes_are_right), cmocka_unit_test(depth_keeps_edges),
                                        cmocka_unit_test(traffic_of_images_falls)};
 
     return cmocka_run_group_tests_name("small", tests, NULL, NULL);

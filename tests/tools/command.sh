@@ -68,6 +68,10 @@ refuses 2 "(auto/one-sided)" render $scenes/cube_point.gltf -o "$tmp/x.png" --me
 refuses 3 "method stencil needs stencil, which is hidden" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil --method stencil
 refuses 3 "none without a stencil is possible" render $scenes/cube_point.gltf -o "$tmp/x.png" --hide stencil,fbo-rgba8,fbo-rgba4,fbo-rgb5a1,fbo-rgb565,blend-subtract,blend-rounding
 refuses 2 "(dark)" render $scenes/cube_point.gltf -o "$tmp/x.png" --shade dark
+refuses 2 "(3)" render $scenes/cube_point.gltf -o "$tmp/x.png" --scale 3
+refuses 2 "(cubic)" render $scenes/cube_point.gltf -o "$tmp/x.png" --upsample cubic
+refuses 3 "screen has no room for depth" render $scenes/cube_point.gltf -o "$tmp/x.png" --method screen --scale 2 --upsample depth
+refuses 3 "needs packed-depth-stencil" render $scenes/cube_point.gltf -o "$tmp/x.png" --method stencil --scale 4 --hide packed-depth-stencil
 refuses 2 "(8,8,8)" render $scenes/cube_point.gltf -o "$tmp/x.png" --bits 8,8,8
 refuses 2 "a value is missing" render $scenes/cube_point.gltf -o
 refuses 1 "none.gltf" render "$tmp/none.gltf" -o "$tmp/x.png"
@@ -156,6 +160,7 @@ for m in count signed alpha screen; do
 done
 ok "without a stencil it is counted in an image" sh -c "$gnomon render $scenes/cube_point.gltf --size 160x120 --hide stencil --explain | grep -q 'count: the best that is possible here: stencil needs stencil, which is hidden.*counted in an image'"
 ok "a target of 565 without stencil and alpha" sh -c "$gnomon render $scenes/cube_point.gltf --size 160x120 --bits 5,6,5,0,16,0 --report $tmp/565.json -o $tmp/565.png 2> /dev/null && grep -q '\"alpha\":[[:space:]]*0' $tmp/565.json && grep -q '\"mask\":[[:space:]]*\"texture\"' $tmp/565.json"
+ok "masks at a quarter, by depth" sh -c "$gnomon render $scenes/cube_point.gltf --size 161x121 --scale 4 --upsample depth --report $tmp/small.json -o $tmp/small.png && grep -q '\"scale\":[[:space:]]*4' $tmp/small.json"
 ok "the report has the traffic that is expected" grep -q traffic_bytes_estimated "$tmp/565.json"
 refuses 2 "(-1)" render $scenes/cube_point.gltf -o "$tmp/x.png" --importance -1
 ok "welded edges say what may be off" sh -c "$gnomon render $scenes/pile_of_8.gltf --size 64x48 --weld-angle 10 --explain | grep -q 'may be off by up to 0'"

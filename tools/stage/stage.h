@@ -15,7 +15,7 @@ typedef struct stage_program {
     GLuint name; /* 0: not made yet */
     GLint clip, world, normal, base, flat, ambient, emits, emissive, cutoff, shininess, specular, metallic, two_sided,
         texture;
-    GLint light_position, light_color, light_axis, light_cone, mask, channels;
+    GLint light_position, light_color, light_axis, light_cone, mask, channels, mask_size, mask_depth;
 } stage_program;
 
 /* What a program does beyond placing vertices: an index into stage.programs. */
@@ -23,10 +23,12 @@ enum {
     STAGE_TEXTURED = 1,
     STAGE_CUT = 2,
     STAGE_FLAT = 4,
-    STAGE_MASKED = 8,   /* under masks in a texture */
-    STAGE_MEDIUMP = 16, /* no highp */
-    STAGE_LIGHT_SHIFT = 5,
-    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 5
+    STAGE_MASKED = 8,     /* under masks in a texture */
+    STAGE_MEDIUMP = 16,   /* no highp */
+    STAGE_UPSAMPLED = 32, /* masks by depth */
+    STAGE_DEPTH = 64,     /* the depth that they carry */
+    STAGE_LIGHT_SHIFT = 7,
+    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 7
 };
 
 /* Part of a range that 16-bit indices reach. */
@@ -168,6 +170,7 @@ typedef struct stage_look {
     const float *flat;      /* one colour instead, or NULL */
     int receivers;          /* 1: objects that receive; 0: the rest; -1: all */
     int facing_light;       /* only triangles whose seen side looks at this light; -1: all */
+    int carries_depth;      /* writes the depth that masks carry */
     int only_lit;           /* only objects that a light of the plan in `picked` may light */
     int backs;              /* after the fronts the backs of objects that say they are drawn */
 } stage_look;

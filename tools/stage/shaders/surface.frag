@@ -5,6 +5,7 @@
 // CUT          alphaMode MASK: cut below u_cutoff in every pass
 // FLAT         one colour instead of shading
 // GN_MASKED    lights of a pass have masks in a texture (gnomon_gles.h)
+// GN_DEPTH_COLOR  the depth that masks carry, in place of u_flat (gnomon_gles.h)
 // FROM_BEHIND  the back of the face is seen
 // PRECISION    highp where there is one
 //
@@ -50,6 +51,9 @@ void main()
 #endif
 #if FLAT
     gl_FragColor = u_flat;
+#ifdef GN_DEPTH_COLOR
+    gl_FragColor = gn_mask_depth_color();
+#endif
 #ifdef GN_MASKED
     gl_FragColor *= dot(gn_mask(), u_channels);
 #endif
