@@ -17,6 +17,7 @@
 #include <string.h>
 
 #define STEPS     8.0    /* of depth behind the last receiver; four are needed */
+#define PIXELS    0.25   /* between a receiver and where a volume ends or starts */
 #define MOST      1024.0 /* times its distance from the light may a vertex be moved: more loses its direction in floats */
 #define WORTH     (1.0 / 128.0) /* of the target's pixels must a scissor cut off: changing it is not free everywhere */
 #define LEAST_SUN 0.02          /* sine of the angle at which a directional light's rays may meet the end */
@@ -159,8 +160,11 @@ double gni_behind(const gni_extent *e, const gni_draft *d, double lowest)
     const gn_camera *camera = &d->scene->camera;
     const double depth = camera->zfar != 0.0 ? fmin(e->deepest, camera->zfar) : e->deepest;
     const double steps = STEPS * fmax(depth, camera->znear) / ldexp(camera->znear, d->scene->target.depth_bits);
+    const double pixel = d->plan->scale * (camera->top - camera->bottom) / d->scene->target.height *
+                         (camera->orthographic ? 1.0 : fmax(depth, camera->znear));
 
-    lowest -= fabs(lowest) * steps + GNI_MARGIN * 8.0 * e->greatest;
+    /* A GL need not place vertices closer than to 1/16 of a pixel: planes nearer to each other than that change places. */
+    lowest -= fabs(lowest) * steps + GNI_MARGIN * 8.0 * e->greatest + PIXELS * pixel;
     return lowest - fabs(lowest) * steps; /* it is farther from the eye now */
 }
 

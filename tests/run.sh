@@ -51,7 +51,7 @@ table "all scenes" truth ${TRUTH_ARGS:-}
 table "the extremes" extremes --extremes --size 160x120
 table "the extremes in 16 bits of depth" extremes16 --extremes --size 160x120 --depth 16
 table "small scenes in 16 bits of depth" truth16 --size 160x120 --depth 16 --drivers llvmpipe
-without_stencil=count,count-565,count-two,signed,signed-fbo,alpha,screen,mediump
+without_stencil=zfail,count,count-565,count-two,signed,signed-fbo,alpha,screen,mediump
 table "counts in colour" color --size 160x120 --ways $without_stencil
 table "counts in colour, the extremes" color-extremes --extremes --size 160x120 --drivers llvmpipe,softpipe --ways $without_stencil
 table "counts in colour, a target of 565 without stencil and alpha" color-565 --size 160x120 --drivers llvmpipe,osmesa \

@@ -11,7 +11,12 @@ const test_format test_formats[TEST_FORMATS] = {{"rgba8", GL_RGBA, GL_UNSIGNED_B
 
 int test_open_device(test_device *d, const char *platform_name, uint32_t size)
 {
-    const platform_desc wanted = {size, size, 8, 8, 8, 8, 24, 8};
+    return test_open_device_of(d, platform_name, size, size);
+}
+
+int test_open_device_of(test_device *d, const char *platform_name, uint32_t width, uint32_t height)
+{
+    const platform_desc wanted = {width, height, 8, 8, 8, 8, 24, 8};
     char message[PLATFORM_MESSAGE] = "no memory";
     gn_gles_desc desc = {platform_get_proc, NULL, NULL};
 

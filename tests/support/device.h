@@ -13,6 +13,7 @@ typedef struct test_device {
 
 /* size * size pixels, 8 bits a channel, 24 of depth, 8 of stencil. 0, or 1 having said why: as cmocka's fixtures do. */
 int test_open_device(test_device *d, const char *platform_name, uint32_t size);
+int test_open_device_of(test_device *d, const char *platform_name, uint32_t width, uint32_t height);
 int test_close_device(test_device *d);
 
 /* Formats of textures that counts may be made in. */
