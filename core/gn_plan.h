@@ -57,7 +57,7 @@ typedef struct gn_stencil_layout {
 typedef enum gn_mask {
     GN_MASK_STENCIL, /* by the stencil test */
     GN_MASK_ALPHA,   /* by the target's alpha, a factor of blending */
-    GN_MASK_TEXTURE  /* by a texture that the host's shader reads (GN_GLSL_MASK in gnomon_gles.h), a light in each
+    GN_MASK_TEXTURE  /* by a texture that the host's shader reads (GN_GLSL_MASK_FRAGMENT in gnomon_gles.h), a light in each
                         channel */
 } gn_mask;
 
@@ -109,7 +109,7 @@ enum {
     GN_MEASURE_PATCHES = 4,  /* on flat receivers projections are counted, and volumes reach the others only */
     /* ended volumes are left out between the things that they may shadow, of which only what is seen counts */
     GN_MEASURE_INTERVALS = 8,
-    /* three lights and more are added in one pass, if the host reads masks, under stencils taken to a texture */
+    /* several lights are added in one pass, if the host reads masks, under stencils taken to a texture */
     GN_MEASURE_MASKS = 16
 };
 
