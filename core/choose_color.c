@@ -4,9 +4,10 @@
  *     count   fronts in red, backs in green of an image, each up to its channel's top. Shadow where the two differ
  *     signed  up by one step for one side, down for the other, from the middle: in alpha 127 of 8 bits, 7 of 4
  *     alpha   halved for one side, doubled for the other, from full: 1, 1/2, 1/4 ... are levels 255, 128, 64 ... 1 of 8
- *     screen  bits, which come back exactly, since 128 / 255 of such a level rounds to the next whatever the driver's
- *             way of rounding, and 2 * 128 stops at 255. As many halvings as there are bits, where Roettger's quarter
- *             leaves room for two
+ *             bits, which come back exactly: 128 / 255 of such a level rounds to the next whatever the driver's way of
+ *             rounding, and 2 * 128 stops at 255. As many halvings as there are bits; Roettger's quarters leave room
+ *             for two
+ *     screen  the same in the colour of the frame itself, before the scene is drawn
  *
  * Masks of a stencil are taken to a texture too where that saves more than it costs: with many lights that reach most of
  * what is seen. */
@@ -47,6 +48,14 @@ static gn_format find_mask_format(const gn_scene *s)
     static const gn_format wanted[] = {GN_FORMAT_RGBA4, GN_FORMAT_RGB5A1, GN_FORMAT_RGBA8, GN_FORMAT_RGB565};
 
     return find_format(s, wanted, 4);
+}
+
+/* What a shadow leaves of the light that it takes from the frame. */
+static double find_dimmed(const gn_scene *s)
+{
+    if (s->shade != GN_SHADE_ATTENUATE)
+        return 0.0;
+    return s->dimmed > 0.0 ? s->dimmed : 0.5;
 }
 
 /* Of red, green, blue, alpha. */
@@ -215,7 +224,7 @@ void gni_choose_color(const gn_scene *s, gni_choice *choice)
 {
     gn_color_layout *layout = &choice->color;
 
-    choice->dimmed = s->shade != GN_SHADE_ATTENUATE ? 0.0 : s->dimmed > 0.0 ? s->dimmed : 0.5;
+    choice->dimmed = find_dimmed(s);
     layout->place = choice->method == GN_METHOD_SCREEN                        ? GN_PLACE_COLOR
                     : choice->method != GN_METHOD_COUNT && counts_in_alpha(s) ? GN_PLACE_ALPHA
                                                                               : GN_PLACE_IMAGE;
@@ -308,7 +317,7 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
 {
     uint32_t most = GN_MOST_MASKED;
 
-    choice->dimmed = s->shade != GN_SHADE_ATTENUATE ? 0.0 : s->dimmed > 0.0 ? s->dimmed : 0.5;
+    choice->dimmed = find_dimmed(s);
     choice->lights_per_mask = 1;
     if (choice->color.place == GN_PLACE_STENCIL && (is_small(s) || takes_stencil_to_texture(s, choice))) {
         choice->image.format = choice->mask_format =

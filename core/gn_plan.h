@@ -57,8 +57,7 @@ typedef struct gn_stencil_layout {
 typedef enum gn_mask {
     GN_MASK_STENCIL, /* by the stencil test */
     GN_MASK_ALPHA,   /* by the target's alpha, a factor of blending */
-    GN_MASK_TEXTURE  /* by a texture that the host's shader reads (GN_GLSL_MASK_FRAGMENT in gnomon_gles.h), a light in each
-                        channel */
+    GN_MASK_TEXTURE  /* by a texture with a light in each channel: GN_GLSL_MASK_FRAGMENT in gnomon_gles.h reads it */
 } gn_mask;
 
 #define GN_MOST_MASKED 4 /* lights of one pass, one in each channel of a mask */

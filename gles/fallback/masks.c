@@ -12,7 +12,6 @@ static const float none[4] = {0, 0, 0, 0};
 static void clear_depth(gn_gles *g)
 {
     static const gni_state open = {.color_mask = ALL, .depth_write = GL_TRUE, .stencil_write = ~0u};
-
     const gn_image *image = &g->plan->image;
 
     gni_set_state(g, &open);
@@ -55,6 +54,7 @@ static void use_reader(gn_gles *g, const gni_reader *reader, GLuint texture)
 static void resolve(gn_gles *g, const gn_step *step)
 {
     const gn_plan_light *l = &g->plan->lights[step->light];
+    const float weights[4] = {(float)l->color.top, l->color.other_top ? -(float)l->color.other_top : 0.0f, 0.0f, 0.0f};
     gni_state state = {.color_mask = 1u << l->mask_channel, .undithered = 1};
 
     if (g->plan->image.stencil_bits) {
@@ -64,14 +64,9 @@ static void resolve(gn_gles *g, const gn_step *step)
         gni_fill_quad(g, step, state, none);
         return;
     }
-    {
-        const float top = (float)l->color.top, other = (float)l->color.other_top;
-        const float weights[4] = {top, l->color.other_top ? -other : 0.0f, 0.0f, 0.0f};
-
-        use_reader(g, &g->resolve, g->images.count);
-        g->gl.glUniform4fv(g->resolve.weights, 1, weights);
-        g->gl.glUniform1f(g->resolve.level, l->color.other_top ? 0.0f : (float)l->color.start);
-    }
+    use_reader(g, &g->resolve, g->images.count);
+    g->gl.glUniform4fv(g->resolve.weights, 1, weights);
+    g->gl.glUniform1f(g->resolve.level, l->color.other_top ? 0.0f : (float)l->color.start);
     gni_draw_reader(g, step, state);
     g->gl.glBindTexture(GL_TEXTURE_2D, 0);
 }
@@ -87,7 +82,6 @@ static void copy(gn_gles *g, const gn_step *step)
     gl->glBindTexture(GL_TEXTURE_2D, 0);
 }
 
-/* Only surfaces: the background has the depth that was cleared to, and quads are drawn two steps before it. */
 /* Depth is in the image that it was drawn into: until it is counted in, or in the first mask. */
 static void carry(gn_gles *g, const gn_step *step)
 {
@@ -99,6 +93,7 @@ static void carry(gn_gles *g, const gn_step *step)
     g->gl.glBindTexture(GL_TEXTURE_2D, 0);
 }
 
+/* Only surfaces: the background has the depth that was cleared to, and quads are drawn two steps before it. */
 static const gni_state multiply = {.color_mask = COLOR, .depth_func = GL_GREATER, .blend_destination = GL_SRC_COLOR};
 
 static void set_depth(gn_gles *g, int before_background)

@@ -31,8 +31,7 @@ static gn_mesh *make_quad(bench *b, float half)
 {
     const float positions[12] = {-half, 0, -half, -half, 0, half, half, 0, half, half, 0, -half};
     static const uint32_t indices[6] = {0, 1, 2, 0, 2, 3};
-    const gn_mesh_desc desc = {
-        .positions = positions, .vertex_count = 4, .indices = indices, .triangle_count = 2};
+    const gn_mesh_desc desc = {.positions = positions, .vertex_count = 4, .indices = indices, .triangle_count = 2};
     gn_mesh *mesh = NULL;
 
     if (gn_mesh_create(b->device.context, &desc, &mesh) != GN_OK || gn_gles_upload(b->device.gles, mesh) != GN_OK)
