@@ -47,7 +47,7 @@ SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/*))
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
 BENCHES := $(patsubst %.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
-PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core/gn_matrix.h gles/gnomon_gles.h gles/gn_gl.h gles/gl_funcs.h
+PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core/gn_matrix.h gles/gnomon_gles.h gles/gn_glsl.h gles/gn_gl.h gles/gl_funcs.h
 SCENES  := build/scenes/scenes.txt
 
 .DEFAULT_GOAL := all
@@ -85,9 +85,9 @@ boards: $(B)/gnomon ## probe every driver that this machine can run, into docs/b
 
 headers: ## each public header compiles alone, as C99 and, where there is a compiler for it, as C++
 	@for h in $(PUBLIC); do case $$h in *gl_funcs.h) continue;; esac; \
-	  $(CC) -x c -std=c99 -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -fsyntax-only $$h || exit 1; \
+	  echo 'extern int some;' | $(CC) -x c -std=c99 -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -include $$h -fsyntax-only - || exit 1; \
 	  echo | $(CC) -x c++ -fsyntax-only - 2>/dev/null || continue; \
-	  $(CC) -x c++ -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -fsyntax-only $$h || exit 1; done
+	  echo 'extern int some;' | $(CC) -x c++ -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -include $$h -fsyntax-only - || exit 1; done
 
 layers: $(B)/libgnomon.a ## arrows point down only; the library takes memory from its port alone and has no globals
 	@! grep -nE '#include.*(GL|EGL|gles|platform|scene)' core/*.[ch] port/*.[ch]

@@ -89,15 +89,11 @@ int gni_carries_depth(const gn_scene *s)
 /* Whether masks can carry depth, where they must. */
 static int can_carry_depth(const gn_scene *s, const char *name, gni_text *why)
 {
-    const gn_capability needs[2] = {GN_CAN_FBO_RGBA8, GN_CAN_FRAGMENT_HIGHP};
-
-    for (int i = 0; i < 2 && gni_carries_depth(s); i++)
-        if (!can(s, needs[i])) {
-            gni_put(why, "%s upsampled by depth needs %s, which %s", name, gn_capability_name(needs[i]),
-                    gni_why_not(&s->target, needs[i]));
-            return 0;
-        }
-    return 1;
+    if (!gni_carries_depth(s) || can(s, GN_CAN_FBO_RGBA8))
+        return 1;
+    gni_put(why, "%s upsampled by depth needs %s, which %s", name, gn_capability_name(GN_CAN_FBO_RGBA8),
+            gni_why_not(&s->target, GN_CAN_FBO_RGBA8));
+    return 0;
 }
 
 static int counts_in_alpha(const gn_scene *s)

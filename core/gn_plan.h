@@ -120,8 +120,8 @@ enum {
 typedef enum gn_upsample {
     GN_UPSAMPLE_NEAREST,  /* blocks of pixels have one mask */
     GN_UPSAMPLE_BILINEAR, /* between them it is neither 0 nor 1 */
-    /* The same where the four masks around lie in the receiver's plane; elsewhere the mask of the one that is nearest to it
-     * in depth, which masks carry: at most two lights in a pass, and highp in fragment shaders */
+    /* The same where the four masks around lie in the receiver's plane; elsewhere the more of a mask the nearer it is to
+     * the receiver in depth, which masks carry: at most two lights in a pass */
     GN_UPSAMPLE_DEPTH
 } gn_upsample;
 
@@ -157,6 +157,7 @@ typedef struct gn_scene {
     /* A choice: masks have one pixel for 2 x 2 or 4 x 4 of the frame's, in a texture: 1, 2 or 4 [1] */
     uint32_t scale;
     gn_upsample upsample;
+    int sharpen; /* 1: not NEAREST; what is between 0 and 1 then is narrowed to a pixel of the frame (GN_SHARPENED) */
     gn_shade shade;
     double dimmed; /* GN_SHADE_ATTENUATE: what a shadow leaves of the light, more than 0, less than 1 [0.5] */
     int discards;  /* 1: the host reads neither depth nor stencil of the target after the frame: they may be dropped */
@@ -217,7 +218,7 @@ typedef enum gn_draw {
     GN_DRAW_AMBIENT, /* every opaque object: depth and ambient light together */
     GN_DRAW_LIGHT,   /* objects that receive (or those that do not), added, under the mask of `lights` */
     GN_DRAW_FINAL,   /* transparent things and labels: McGuire's last pass */
-    /* Every opaque object, depth alone, into whatever is bound. With GN_UPSAMPLE_DEPTH gn_mask_depth_color() is written,
+    /* Every opaque object, depth alone, into whatever is bound. If the plan carries_depth gn_mask_depth_color() is written,
      * else no colour */
     GN_DRAW_DEPTH,
     /* As if nothing cast, for GN_SHADE_ATTENUATE and BLACK: depth and all light of every opaque object; and again, once
@@ -359,10 +360,12 @@ typedef struct gn_plan {
     uint32_t mask_count; /* textures */
     uint32_t scale;      /* pixels of the frame for one of a mask, in each direction */
     gn_upsample upsample;
+    int sharpen;       /* as in the scene, where masks are smaller */
+    int carries_depth; /* GN_DRAW_DEPTH writes gn_mask_depth_color(), which masks keep in blue and alpha */
     /* Of the host's passes: the target's size, or a little more, so that masks have whole pixels: matrices are made for it */
     uint32_t viewport[2];
     uint32_t mask_size[2]; /* viewport / scale: of images and mask textures */
-    /* GN_UPSAMPLE_DEPTH: what masks carry is (mask_depth[0] + mask_depth[1] z) / w of clip space, from 0 to 1, which is
+    /* What masks carry is (mask_depth[0] + mask_depth[1] z) / w of clip space, from 0 to 1, which is
      * linear on the image */
     double mask_depth[2];
     gn_traffic traffic;

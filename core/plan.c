@@ -259,6 +259,8 @@ static void start_plan(gni_draft *d)
     plan->mask_format = d->choice.mask_format;
     plan->scale = scale_of(s);
     plan->upsample = s->upsample;
+    plan->sharpen = s->sharpen && plan->scale > 1;
+    plan->carries_depth = gni_carries_depth(s);
     plan->viewport[0] = s->target.width;
     plan->viewport[1] = s->target.height;
     for (int i = 0; i < 2; i++)

@@ -26,7 +26,7 @@
  *                to unpack pixels from (OpenGL ES 3). Any other state
  *     clear      before the first step but DEPTH colour (to the host's clear colour), depth and, if the plan counts there,
  *                stencil are cleared, unmasked
- *     DEPTH      depth test LESS, depth written; no colour written (with GN_UPSAMPLE_DEPTH all of it, dither off); stencil test and blending off. A framebuffer object
+ *     DEPTH      depth test LESS, depth written; no colour written (where the plan carries depth all of it, dither off); stencil test and blending off. A framebuffer object
  *                of the library's own is bound, unless the plan has no image
  *     AMBIENT    depth test LESS, depth written; stencil test and blending off. After a DEPTH into the target: EQUAL, and
  *     LIT        depth not written
@@ -55,101 +55,12 @@
 #ifndef GNOMON_GLES_H
 #define GNOMON_GLES_H
 #include "gn_gl.h"
+#include "gn_glsl.h"
 #include "gnomon.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/* Paste into a vertex shader after its #version and precision lines. */
-#define GN_GLSL_POSITION                                                                                               \
-    "vec4 gn_position(highp mat4 gn_matrix, highp vec3 gn_vertex)\n"                                                   \
-    "{\n"                                                                                                              \
-    "    return gn_matrix * vec4(gn_vertex, 1.0);\n"                                                                   \
-    "}\n"
-
-/* The mask of a light's pass in the host's shaders, whatever kind it is. Paste the first into the vertex shader and call
- * gn_mask_place() with what is written to gl_Position; paste the second into the fragment shader and multiply light i of
- * the pass (gn_step.lights[i]) with channel i of gn_mask(), which is 0 or 1. Where gn_plan.mask is GN_MASK_TEXTURE and the
- * step says receivers: a program with GN_MASKED defined before both, the texture gn_gles_mask() bound to the unit in the
- * uniform gn_mask_texture. Else, without GN_MASKED, the mask is 1, and stencil test or blending do the rest.
- * With GN_UPSAMPLE_DEPTH: GN_UPSAMPLED defined too, the uniforms gn_mask_depth and gn_mask_size set to gn_plan.mask_depth and
- * mask_size; and in the DEPTH step a program with GN_DEPTH_COLOR defined, and gn_mask_depth, writes gn_mask_depth_color().
- * GN_MEDIUMP defined too: the place is mediump even where fragment shaders have highp.
- * The place is divided by w where the texture is read, and by nothing else: screen positions are not linear in
- * perspective, and half floats do no arithmetic on them (DESIGN.md, decision 12). */
-#define GN_GLSL_MASK_VERTEX                                                                                            \
-    "#if defined(GN_MASKED) || defined(GN_DEPTH_COLOR)\n"                                                              \
-    "varying highp vec3 gn_mask_at;\n"                                                                                 \
-    "#endif\n"                                                                                                         \
-    "#if defined(GN_UPSAMPLED) || defined(GN_DEPTH_COLOR)\n"                                                           \
-    "uniform highp vec2 gn_mask_depth;\n"                                                                              \
-    "varying highp float gn_mask_over_w;\n"                                                                            \
-    "#endif\n"                                                                                                         \
-    "void gn_mask_place(highp vec4 gn_clip)\n"                                                                         \
-    "{\n"                                                                                                              \
-    "#if defined(GN_MASKED) || defined(GN_DEPTH_COLOR)\n"                                                              \
-    "    gn_mask_at = vec3(0.5 * (gn_clip.xy + gn_clip.ww), gn_clip.w);\n"                                             \
-    "#endif\n"                                                                                                         \
-    "#if defined(GN_UPSAMPLED) || defined(GN_DEPTH_COLOR)\n"                                                           \
-    "    gn_mask_over_w = gn_mask_depth.x + gn_mask_depth.y * gn_clip.z;\n"                                            \
-    "#endif\n"                                                                                                         \
-    "}\n"
-#define GN_GLSL_MASK_FRAGMENT                                                                                          \
-    "#if defined(GL_FRAGMENT_PRECISION_HIGH) && !defined(GN_MEDIUMP)\n"                                                \
-    "#define GN_PLACE highp\n"                                                                                         \
-    "#else\n"                                                                                                          \
-    "#define GN_PLACE mediump\n"                                                                                       \
-    "#endif\n"                                                                                                         \
-    "#if defined(GN_MASKED) || defined(GN_DEPTH_COLOR)\n"                                                              \
-    "varying GN_PLACE vec3 gn_mask_at;\n"                                                                              \
-    "#endif\n"                                                                                                         \
-    "#if defined(GN_UPSAMPLED) || defined(GN_DEPTH_COLOR)\n"                                                           \
-    "varying GN_PLACE float gn_mask_over_w;\n"                                                                         \
-    "#endif\n"                                                                                                         \
-    "#ifdef GN_DEPTH_COLOR\n"                                                                                          \
-    "GN_PLACE vec4 gn_mask_depth_color()\n"                                                                            \
-    "{\n"                                                                                                              \
-    "    GN_PLACE float gn_steps = 255.0 * min(gn_mask_over_w / gn_mask_at.z, 1.0);\n"                                 \
-    "    return vec4(1.0, 1.0, floor(gn_steps) / 255.0, fract(gn_steps));\n"                                           \
-    "}\n"                                                                                                              \
-    "#endif\n"                                                                                                         \
-    "#ifdef GN_MASKED\n"                                                                                               \
-    "uniform mediump sampler2D gn_mask_texture;\n"                                                                     \
-    "#endif\n"                                                                                                         \
-    "#ifdef GN_UPSAMPLED\n"                                                                                            \
-    "uniform GN_PLACE vec2 gn_mask_size;\n"                                                                            \
-    "GN_PLACE vec3 gn_mask_tap(GN_PLACE vec2 gn_texel)\n"                                                              \
-    "{\n"                                                                                                              \
-    "    GN_PLACE vec4 gn_read = texture2D(gn_mask_texture, (gn_texel + 0.5) / gn_mask_size);\n"                       \
-    "    return vec3(gn_read.rg, gn_read.b + gn_read.a / 255.0);\n"                                                    \
-    "}\n"                                                                                                              \
-    "mediump vec4 gn_mask()\n"                                                                                         \
-    "{\n"                                                                                                              \
-    "    GN_PLACE vec2 gn_at = gn_mask_at.xy / gn_mask_at.z * gn_mask_size - 0.5;\n"                                   \
-    "    GN_PLACE vec2 gn_low = floor(gn_at), gn_part = gn_at - gn_low;\n"                                             \
-    "    GN_PLACE float gn_own = min(gn_mask_over_w / gn_mask_at.z, 1.0);\n"                                           \
-    "    GN_PLACE vec3 gn_a = gn_mask_tap(gn_low);\n"                                                                  \
-    "    GN_PLACE vec3 gn_b = gn_mask_tap(gn_low + vec2(1.0, 0.0));\n"                                                 \
-    "    GN_PLACE vec3 gn_c = gn_mask_tap(gn_low + vec2(0.0, 1.0));\n"                                                 \
-    "    GN_PLACE vec3 gn_d = gn_mask_tap(gn_low + vec2(1.0, 1.0));\n"                                                 \
-    "    GN_PLACE vec3 gn_between = mix(mix(gn_a, gn_b, gn_part.x), mix(gn_c, gn_d, gn_part.x), gn_part.y);\n"         \
-    "    GN_PLACE vec4 gn_off = abs(vec4(gn_a.z, gn_b.z, gn_c.z, gn_d.z) - gn_own);\n"                                 \
-    "    GN_PLACE vec3 gn_near = gn_off.x < gn_off.y ? gn_a : gn_b;\n"                                                 \
-    "    GN_PLACE vec3 gn_far = gn_off.z < gn_off.w ? gn_c : gn_d;\n"                                                  \
-    "    gn_near = min(gn_off.x, gn_off.y) < min(gn_off.z, gn_off.w) ? gn_near : gn_far;\n"                            \
-    "    return vec4((abs(gn_between.z - gn_own) < 0.0005 + 0.005 * gn_own ? gn_between : gn_near).rg, 1.0, 1.0);\n"   \
-    "}\n"                                                                                                              \
-    "#else\n"                                                                                                          \
-    "mediump vec4 gn_mask()\n"                                                                                         \
-    "{\n"                                                                                                              \
-    "#ifdef GN_MASKED\n"                                                                                               \
-    "    return texture2DProj(gn_mask_texture, gn_mask_at);\n"                                                         \
-    "#else\n"                                                                                                          \
-    "    return vec4(1.0);\n"                                                                                          \
-    "#endif\n"                                                                                                         \
-    "}\n"                                                                                                              \
-    "#endif\n"
 
 typedef struct gn_gles gn_gles;
 

@@ -16,11 +16,6 @@ static int has_depth(const gn_plan *plan)
            plan->scale == 1;
 }
 
-static int carries_depth(const gn_plan *plan)
-{
-    return plan->scale > 1 && plan->upsample == GN_UPSAMPLE_DEPTH;
-}
-
 /* By the target's alpha, which stays; or becomes 0 where something is lit, so that nothing else is. */
 static gni_state light_under_alpha(const gn_plan *plan)
 {
@@ -168,7 +163,7 @@ static gni_state state_for(gn_gles *g, const gn_step *step)
     switch (step->draw) {
     case GN_DRAW_DEPTH:
         s = ambient;
-        if (!carries_depth(plan))
+        if (!plan->carries_depth)
             s.color_mask = 0;
         else
             s.undithered = 1;

@@ -26,6 +26,7 @@ const char help_render[] =
     "  --method NAME         see `gnomon methods` [auto]\n"
     "  --scale S             masks of a pixel for S x S of the frame's: 1, 2 or 4 [1]\n"
     "  --upsample HOW        nearest, bilinear or depth, for scale 2 and 4 [bilinear]\n"
+    "  --sharpen             the same, with edges narrowed to a pixel of the frame: not with nearest\n"
     "  --shade HOW           additive: lights are added to ambient; attenuate: shadows dim a lit frame; black "
     "[additive]\n"
     "  --bits R,G,B,A,D,S    of the target, as near as the platform has [8,8,8,8,24,8]\n"
@@ -58,7 +59,7 @@ typedef struct job {
     long update_every, proxy;
     double weld_angle;
     double spin, exposure, importance, soft_radius, update_distance;
-    int explain, one_sided, blend_once;
+    int explain, one_sided, blend_once, sharpen;
     gn_method method;
 } job;
 
@@ -135,7 +136,8 @@ static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
                                  .light_count = 1,
                                  .unbounded = 1,
                                  .scale = (uint32_t)j->scale,
-                                 .upsample = j->upsample};
+                                 .upsample = j->upsample,
+                                 .sharpen = j->sharpen};
         const int status = stage_plan(s, &wish, message);
 
         if (status != 0 || !stage_draw_mask(s, i, message)) {
@@ -177,7 +179,8 @@ static int timed_frame(stage *s, const job *j, int casting, double *ms, char mes
                              .keeps = casting,
                              .shade = j->shade,
                              .scale = (uint32_t)j->scale,
-                             .upsample = j->upsample};
+                             .upsample = j->upsample,
+                             .sharpen = j->sharpen};
     const double start = now_ms();
     const int status = stage_plan(s, &wish, message);
 
@@ -465,6 +468,7 @@ int command_render(int count, char **arguments)
         {"--method", OPTION_TEXT, &j.method_name, 0, 0},
         {"--scale", OPTION_WHOLE, &j.scale, 1, 4},
         {"--upsample", OPTION_TEXT, &j.upsample_name, 0, 0},
+        {"--sharpen", OPTION_FLAG, &j.sharpen, 0, 0},
         {"--shade", OPTION_TEXT, &j.shade_name, 0, 0},
         {"--bits", OPTION_TEXT, &j.bits_text, 0, 0},
         {"--platform", OPTION_TEXT, &j.platform, 0, 0},

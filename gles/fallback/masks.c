@@ -179,7 +179,7 @@ void gni_mask_step(gn_gles *g, const gn_step *step)
         clear_image(g);
         break;
     case GN_STEP_CLEAR_MASK:
-        if (g->plan->scale > 1 && g->plan->upsample == GN_UPSAMPLE_DEPTH)
+        if (g->plan->carries_depth)
             carry(g, step);
         else
             fill(g, 1.0f);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "gn_test.h"
-#include "stage.h"
+#include "staged.h"
 
 #define WIDTH  200
 #define HEIGHT 150
@@ -16,33 +16,13 @@ enum { SCENES = sizeof scenes / sizeof scenes[0], BYTES = 4 * WIDTH * HEIGHT };
 /* Everything but ends, patches and the like, which move pixels on borders; masks in textures as they come. */
 #define PLAIN (~(unsigned)GN_MEASURE_MASKS)
 
-static scene loaded;
-static stage *s;
-
-static void open_scene(const char *name)
-{
-    const stage_options options = {
-        .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
-    char path[128], message[SCENE_MESSAGE] = "";
-
-    snprintf(path, sizeof path, "build/scenes/%s.gltf", name);
-    if (!scene_load(&loaded, path, NULL, message) || !scene_ensure_view(&loaded, (double)WIDTH / HEIGHT, NULL) ||
-        stage_open(&s, &loaded, &options, message) != 0)
-        fail_msg("%s: %s", name, message);
-    stage_pose(s, 0, 0);
-}
-
-static void close_scene(void)
-{
-    stage_close(s);
-    scene_free(&loaded);
-}
+static staged drawn;
 
 static stage_wish wish_for(gn_method method, unsigned without)
 {
     const stage_wish wish = {.method = method,
                              .casting = 1,
-                             .light_count = (uint32_t)loaded.light_count,
+                             .light_count = (uint32_t)drawn.loaded.light_count,
                              .unbounded = 1,
                              .without = without};
 
@@ -54,12 +34,12 @@ static void draw(const stage_wish *wish, uint32_t hidden, int is_lit, uint8_t rg
 {
     char message[SCENE_MESSAGE] = "";
 
-    s->target.hidden = hidden;
-    if (stage_plan(s, wish, message) != 0 ||
-        !(is_lit ? stage_draw_lit(s, 0, message) : stage_draw_shares(s, message)) ||
-        !platform_read_back(s->platform, rgba))
+    drawn.stage->target.hidden = hidden;
+    if (stage_plan(drawn.stage, wish, message) != 0 ||
+        !(is_lit ? stage_draw_lit(drawn.stage, 0, message) : stage_draw_shares(drawn.stage, message)) ||
+        !platform_read_back(drawn.stage->platform, rgba))
         fail_msg("method %d: %s", (int)wish->method, message);
-    assert_int_equal(s->gl->glGetError(), GL_NO_ERROR);
+    assert_int_equal(drawn.stage->gl->glGetError(), GL_NO_ERROR);
 }
 
 /* Pixels with a channel of colour that differs by more than `slack`. */
@@ -92,29 +72,29 @@ static void counts_have_the_bits_of_a_stencil(void **state)
     for (int sc = 0; sc < SCENES; sc++) {
         stage_wish wish;
 
-        open_scene(scenes[sc]);
+        staged_open(&drawn, scenes[sc], WIDTH, HEIGHT);
         wish = wish_for(GN_METHOD_STENCIL, ~0u);
         draw(&wish, 0, 0, right[0]);
-        assert_int_equal(s->plan->mask, GN_MASK_STENCIL);
-        if (loaded.light_count > 2) {
+        assert_int_equal(drawn.stage->plan->mask, GN_MASK_STENCIL);
+        if (drawn.loaded.light_count > 2) {
             wish = wish_for(GN_METHOD_STENCIL, PLAIN);
             wish.merges_lights = 1;
             draw(&wish, 0, 0, right[1]);
-            assert_int_equal(s->plan->mask, GN_MASK_TEXTURE);
+            assert_int_equal(drawn.stage->plan->mask, GN_MASK_TEXTURE);
         }
         for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
-            if (ways[w].in_image && loaded.light_count < 3)
+            if (ways[w].in_image && drawn.loaded.light_count < 3)
                 continue;
             wish = wish_for(ways[w].method, ~0u);
             draw(&wish, ways[w].hidden, 0, rgba);
-            if (ways[w].may_warn && s->plan->warnings & 1u << GN_WARN_RANGE)
+            if (ways[w].may_warn && drawn.stage->plan->warnings & 1u << GN_WARN_RANGE)
                 continue;
             compared[w]++;
             if (count_differing(right[ways[w].in_image], rgba, 0) != 0)
                 fail_msg("%s: way %lu differs in %d pixels", scenes[sc], (unsigned long)w,
                          count_differing(right[ways[w].in_image], rgba, 0));
         }
-        close_scene();
+        staged_close(&drawn);
     }
     for (int w = 0; w < 6; w++)
         assert_true(compared[w] >= 3);
@@ -130,18 +110,18 @@ static void one_pass_adds_what_several_add(void **state)
         for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
             stage_wish wish;
 
-            open_scene(scenes[sc]);
+            staged_open(&drawn, scenes[sc], WIDTH, HEIGHT);
             wish = wish_for(methods[m], 0);
             wish.merges_lights = 1;
             draw(&wish, 0, 1, one);
-            assert_true(s->plan->mask_count > 0);
-            assert_true(s->plan->mask_count < loaded.light_count);
+            assert_true(drawn.stage->plan->mask_count > 0);
+            assert_true(drawn.stage->plan->mask_count < drawn.loaded.light_count);
             wish.lights_per_pass = methods[m] == GN_METHOD_STENCIL ? 2 : 1; /* one takes stencils to no texture */
             draw(&wish, 0, 1, several);
-            assert_true(s->plan->mask_count * wish.lights_per_pass >= loaded.light_count);
+            assert_true(drawn.stage->plan->mask_count * wish.lights_per_pass >= drawn.loaded.light_count);
             if (count_differing(one, several, 2) != 0)
                 fail_msg("%s: %d pixels differ by more than 2 of 255", scenes[sc], count_differing(one, several, 2));
-            close_scene();
+            staged_close(&drawn);
         }
 }
 
@@ -158,7 +138,7 @@ static void shadows_dim_a_lit_frame(void **state)
     static uint8_t lit[BYTES], right[BYTES], rgba[BYTES];
 
     (void)state;
-    open_scene("colours");
+    staged_open(&drawn, "colours", WIDTH, HEIGHT);
     for (int shade = GN_SHADE_ATTENUATE; shade <= GN_SHADE_BLACK; shade++) {
         stage_wish wish = wish_for(GN_METHOD_STENCIL, ~0u);
         int dimmed = 0, kept = 0;
@@ -187,7 +167,7 @@ static void shadows_dim_a_lit_frame(void **state)
                          count_differing(right, rgba, 1));
         }
     }
-    close_scene();
+    staged_close(&drawn);
 }
 
 /* Lights with bounds, and things that do not receive: a dimmed frame is the same by every method, and dims no background. */
@@ -210,15 +190,15 @@ static void every_method_dims_alike(void **state)
 
     (void)state;
     for (int n = 0; n < 3; n++) {
-        open_scene(names[n]);
-        for (size_t i = 0; i < loaded.instance_count; i += 3)
-            loaded.instances[i].receives = 0;
+        staged_open(&drawn, names[n], WIDTH, HEIGHT);
+        for (size_t i = 0; i < drawn.loaded.instance_count; i += 3)
+            drawn.loaded.instances[i].receives = 0;
         for (size_t w = 0; w < sizeof ways / sizeof ways[0]; w++) {
             stage_wish wish = wish_for(GN_METHOD_ZFAIL, 0);
             int kept = 0, dimmed = 0;
 
             wish.unbounded = 0;
-            wish.light_count = loaded.light_count < 3 ? (uint32_t)loaded.light_count : 3;
+            wish.light_count = drawn.loaded.light_count < 3 ? (uint32_t)drawn.loaded.light_count : 3;
             wish.shade = GN_SHADE_ATTENUATE;
             wish.dimmed = ways[w].dimmed;
             wish.casting = 0;
@@ -227,9 +207,9 @@ static void every_method_dims_alike(void **state)
             draw(&wish, 0, 1, right);
             wish.method = ways[w].method;
             draw(&wish, ways[w].hidden, 1, rgba);
-            if (s->plan->warnings & 1u << GN_WARN_RANGE)
+            if (drawn.stage->plan->warnings & 1u << GN_WARN_RANGE)
                 continue;
-            maximum += s->plan->lights[0].color.by_maximum;
+            maximum += drawn.stage->plan->lights[0].color.by_maximum;
             /* in an image shadows of several lights are one product, elsewhere each is rounded */
             if (count_differing(right, rgba, 3) > (ways[w].hidden == 1u << GN_CAN_ALPHA ? 40 : 0))
                 fail_msg("%s, way %lu: %d pixels differ", names[n], (unsigned long)w, count_differing(right, rgba, 3));
@@ -239,7 +219,7 @@ static void every_method_dims_alike(void **state)
             }
             assert_true(kept > 500 && dimmed > 500);
         }
-        close_scene();
+        staged_close(&drawn);
     }
     assert_true(maximum > 0);
 }
@@ -251,7 +231,7 @@ static void alpha_is_left_full(void **state)
     static uint8_t rgba[BYTES];
 
     (void)state;
-    open_scene("colours");
+    staged_open(&drawn, "colours", WIDTH, HEIGHT);
     for (int m = 0; m < 2; m++) {
         const stage_wish wish = wish_for(methods[m], 0);
 
@@ -259,7 +239,7 @@ static void alpha_is_left_full(void **state)
         for (int i = 3; i < BYTES; i += 4)
             assert_int_equal(rgba[i], 255);
     }
-    close_scene();
+    staged_close(&drawn);
 }
 
 static void frames_take_no_memory(void **state)
@@ -267,18 +247,18 @@ static void frames_take_no_memory(void **state)
     static uint8_t rgba[BYTES];
 
     (void)state;
-    open_scene("colours");
+    staged_open(&drawn, "colours", WIDTH, HEIGHT);
     for (int m = GN_METHOD_STENCIL; m < GN_METHOD_TOTAL; m++) {
         const stage_wish wish = wish_for((gn_method)m, 0);
         uint64_t before;
 
         draw(&wish, 0, 1, rgba);
-        before = s->allocations;
+        before = drawn.stage->allocations;
         for (int frame = 0; frame < 3; frame++)
             draw(&wish, 0, 1, rgba);
-        assert_int_equal(s->allocations, before);
+        assert_int_equal(drawn.stage->allocations, before);
     }
-    close_scene();
+    staged_close(&drawn);
 }
 
 int main(void)

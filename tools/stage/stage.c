@@ -364,6 +364,7 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
     frame.merges_lights = wish->merges_lights;
     frame.scale = wish->scale;
     frame.upsample = wish->upsample;
+    frame.sharpen = wish->sharpen;
     frame.without = wish->without;
     frame.cache = wish->keeps ? s->cache : NULL;
     size = gn_plan_bound(&frame);

@@ -15,7 +15,7 @@ typedef struct stage_program {
     GLuint name; /* 0: not made yet */
     GLint clip, world, normal, base, flat, ambient, emits, emissive, cutoff, shininess, specular, metallic, two_sided,
         texture;
-    GLint light_position, light_color, light_axis, light_cone, mask, channels, mask_size, mask_depth;
+    GLint light_position, light_color, light_axis, light_cone, mask, channels, mask_size, mask_depth, mask_sharpness;
 } stage_program;
 
 /* What a program does beyond placing vertices: an index into stage.programs. */
@@ -27,8 +27,9 @@ enum {
     STAGE_MEDIUMP = 16,   /* no highp */
     STAGE_UPSAMPLED = 32, /* masks by depth */
     STAGE_DEPTH = 64,     /* the depth that they carry */
-    STAGE_LIGHT_SHIFT = 7,
-    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 7
+    STAGE_SHARPENED = 128,
+    STAGE_LIGHT_SHIFT = 8,
+    STAGE_PROGRAMS = (STAGE_LIGHTS + 1) << 8
 };
 
 /* Part of a range that 16-bit indices reach. */
@@ -127,6 +128,7 @@ typedef struct stage_wish {
     int merges_lights;
     uint32_t scale; /* of masks; 0: 1 */
     gn_upsample upsample;
+    int sharpen;
     uint32_t lights_per_pass; /* under a mask in a texture; 0: as many as the shader can */
 } stage_wish;
 

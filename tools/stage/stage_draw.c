@@ -31,11 +31,6 @@ static void set_lights(stage *s, const stage_program *p, const stage_look *look)
     s->gl->glUniform2fv(p->light_cone, (GLsizei)count, cone[0]);
 }
 
-static int carries_depth(const gn_plan *plan)
-{
-    return plan->scale > 1 && plan->upsample == GN_UPSAMPLE_DEPTH;
-}
-
 static void set_material(stage *s, const stage_program *p, const scene_material *m, const stage_look *look)
 {
     const gn_gl *gl = s->gl;
@@ -58,12 +53,13 @@ static void set_material(stage *s, const stage_program *p, const scene_material 
     gl->glUniform1f(p->two_sided, m->double_sided ? 1.0f : 0.0f);
     if (look->flat)
         gl->glUniform4fv(p->flat, 1, look->flat);
-    if (look->carries_depth || (look->mask && carries_depth(s->plan))) {
+    if (look->carries_depth || look->mask) {
         const float size[2] = {(float)s->plan->mask_size[0], (float)s->plan->mask_size[1]};
         const float depth[2] = {(float)s->plan->mask_depth[0], (float)s->plan->mask_depth[1]};
 
         gl->glUniform2fv(p->mask_size, 1, size);
         gl->glUniform2fv(p->mask_depth, 1, depth);
+        gl->glUniform1f(p->mask_sharpness, (float)s->plan->scale);
     }
     if (look->mask) {
         float channels[4] = {0, 0, 0, 0};
@@ -183,7 +179,8 @@ static void draw_object(stage *s, size_t index, stage_pass pass, const stage_loo
         const unsigned kind =
             (material->texture != SCENE_NONE ? STAGE_TEXTURED : 0u) | (material->alpha == SCENE_MASK ? STAGE_CUT : 0u) |
             (look->flat ? STAGE_FLAT : 0u) | (look->mask ? STAGE_MASKED : 0u) |
-            (look->mask && carries_depth(s->plan) ? STAGE_UPSAMPLED : 0u) | (look->carries_depth ? STAGE_DEPTH : 0u) |
+            (look->mask && s->plan->carries_depth ? STAGE_UPSAMPLED : 0u) |
+            (look->mask && s->plan->sharpen ? STAGE_SHARPENED : 0u) | (look->carries_depth ? STAGE_DEPTH : 0u) |
             (gn_target_can(&s->target, GN_CAN_FRAGMENT_HIGHP) ? 0u : STAGE_MEDIUMP) |
             (look->flat ? 0u : look->light_count << STAGE_LIGHT_SHIFT);
         const stage_program *p;

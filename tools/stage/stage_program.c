@@ -93,6 +93,7 @@ static void locate(const gn_gl *gl, stage_program *p)
         {&p->channels, "u_channels"},
         {&p->mask_size, "gn_mask_size"},
         {&p->mask_depth, "gn_mask_depth"},
+        {&p->mask_sharpness, "gn_mask_sharpness"},
     };
 
     for (size_t i = 0; i < sizeof uniforms / sizeof uniforms[0]; i++)
@@ -104,16 +105,17 @@ stage_program *stage_use(stage *s, unsigned kind)
     stage_program *p = &s->programs[kind];
 
     if (!p->name) {
-        char defines[384];
+        char defines[512];
 
         snprintf(defines, sizeof defines,
                  "#define LIGHTS %u\n#define TEXTURED %d\n#define CUT %d\n#define FLAT %d\n#define FROM_BEHIND %s\n"
-                 "#define PRECISION %s\n%s%s%s%s",
+                 "#define PRECISION %s\n%s%s%s%s%s",
                  kind >> STAGE_LIGHT_SHIFT, !!(kind & STAGE_TEXTURED), !!(kind & STAGE_CUT), !!(kind & STAGE_FLAT),
                  gn_target_can(&s->target, GN_CAN_FRONT_FACING) ? "!gl_FrontFacing" : "(dot(n, v) < 0.0)",
                  kind & STAGE_MEDIUMP ? "mediump" : "highp", kind & STAGE_MASKED ? "#define GN_MASKED\n" : "",
                  kind & STAGE_MEDIUMP ? "#define GN_MEDIUMP\n" : "",
                  kind & STAGE_UPSAMPLED ? "#define GN_UPSAMPLED\n" : "",
+                 kind & STAGE_SHARPENED ? "#define GN_SHARPENED\n" : "",
                  kind & STAGE_DEPTH ? "#define GN_DEPTH_COLOR\n" : "");
         p->name = link(s->gl, defines, gni_shader_surface_vert, gni_shader_surface_frag);
         if (!p->name)

@@ -48,8 +48,8 @@ static void draw_all_lit(stage *s, uint32_t first_light, uint32_t count, int rec
 static void draw_depth(stage *s)
 {
     static const float black[4] = {0, 0, 0, 0};
-    const int carries = s->plan->scale > 1 && s->plan->upsample == GN_UPSAMPLE_DEPTH;
-    const stage_look look = {.flat = black, .receivers = -1, .facing_light = -1, .carries_depth = carries, .backs = 1};
+    const stage_look look = {
+        .flat = black, .receivers = -1, .facing_light = -1, .carries_depth = s->plan->carries_depth, .backs = 1};
 
     stage_draw_objects(s, STAGE_PASS_SOLID, &look);
 }

@@ -1,0 +1,17 @@
+/* staged.h - a test scene of build/scenes on the stage, headless on EGL. */
+#ifndef STAGED_H
+#define STAGED_H
+#include "stage.h"
+
+typedef struct staged {
+    scene loaded;
+    stage *stage;
+} staged;
+
+/* 8 bits a channel, 24 of depth, 8 of stencil; posed at its start. A failure fails the test. */
+void staged_open(staged *t, const char *name, uint32_t width, uint32_t height);
+void staged_close(staged *t);
+
+/* The plan's first mask texture: [mask_size[1]][mask_size[0]][4], row 0 on top. The caller frees it. */
+uint8_t *staged_read_mask(staged *t, uint32_t mask);
+#endif
