@@ -89,6 +89,8 @@ static int is_possible(const gn_scene *s, gn_method method, gni_text *why)
                     gni_why_not(t, (gn_capability)c));
             return 0;
         }
+    if (method == GN_METHOD_REFINE)
+        return 1;
     return gni_counts_in_color(method) ? gni_color_is_possible(s, method, why)
                                        : gni_stencil_is_possible(s, info->name, why);
 }
@@ -151,6 +153,9 @@ gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
         gni_choose_color(s, choice);
     else
         choose_layout(s, choice);
+    choice->is_refined = choice->method == GN_METHOD_REFINE;
+    if (choice->is_refined)
+        gni_patch_layout(&choice->stencil, 1); /* of what is not contested */
     gni_choose_masks(s, choice);
     choose_far(s, choice);
     return GN_OK;

@@ -83,7 +83,7 @@ static int is_small(const gn_scene *s)
 
 int gni_carries_depth(const gn_scene *s)
 {
-    return is_small(s) && s->upsample == GN_UPSAMPLE_DEPTH;
+    return is_small(s) && (s->upsample == GN_UPSAMPLE_DEPTH || s->method == GN_METHOD_REFINE);
 }
 
 /* Whether masks can carry depth, where they must. */
@@ -309,12 +309,26 @@ static int takes_stencil_to_texture(const gn_scene *s, const gni_choice *choice)
            areas * (2.0 * color + depth);
 }
 
+/* Depth in the first texture; in the others two masks, and where that depth is cut through. */
+static void choose_refined(const gn_scene *s, gni_choice *choice)
+{
+    choice->image.format = choice->mask_format = GN_FORMAT_RGBA8;
+    choice->image.depth_bits = 24;
+    choice->image.stencil_bits = 8;
+    choice->lights_per_mask = 2;
+    gni_put(&choice->text, "; counted at full size where a mask at scale 1/%lu is contested", (unsigned long)s->scale);
+}
+
 void gni_choose_masks(const gn_scene *s, gni_choice *choice)
 {
     uint32_t most = GN_MOST_MASKED;
 
     choice->dimmed = find_dimmed(s);
     choice->lights_per_mask = 1;
+    if (choice->is_refined) {
+        choose_refined(s, choice);
+        return;
+    }
     if (choice->color.place == GN_PLACE_STENCIL && (is_small(s) || takes_stencil_to_texture(s, choice))) {
         choice->image.format = choice->mask_format =
             can(s, GN_CAN_FBO_RGBA4) && !gni_carries_depth(s) ? GN_FORMAT_RGBA4 : GN_FORMAT_RGBA8;

@@ -96,7 +96,7 @@ size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, si
     if (l->light_moved > 0.0)
         gni_put(&s, "; shadows are kept that were found before the light moved by up to %g as their casters see it",
                 l->light_moved);
-    if (l->stencil.patch_bits)
+    if (plan->patch_count && l->stencil.patch_bits)
         gni_put(&s, "; flat receivers on %lu planes take no volumes", (unsigned long)plan->patch_count);
     if (plan->blend_once)
         gni_put(&s, "; of coincident surfaces only the first is lit");

@@ -15,6 +15,9 @@ typedef enum gn_method {
     GN_METHOD_ZFAIL, /* stencil, closed volumes, counted behind what is seen (Everitt 2002) */
     GN_METHOD_ZPASS, /* stencil, counted before what is seen: wrong where a volume meets the near plane (Hoxley 2003) */
     GN_METHOD_STENCIL, /* stencil, before or behind what is seen for each caster, by the occlusion pyramid (McGuire 2003) */
+    /* The same, at full size only where a small mask is contested: its neighbours differ, or depth is cut through there
+     * (Chan and Durand's idea, there with a shadow map) */
+    GN_METHOD_REFINE,
     /* Without a stencil. Fronts and backs are counted in two channels of an image of the library's own. */
     GN_METHOD_COUNT,
     GN_METHOD_SIGNED, /* added and subtracted about a level, in the target's alpha or in an image */
@@ -154,7 +157,7 @@ typedef struct gn_scene {
     /* 1: lights under stencils are added in passes of several too, by masks in textures, where the target can. 0: where
      * the plan finds that cheaper */
     int merges_lights;
-    /* A choice: masks have one pixel for 2 x 2 or 4 x 4 of the frame's, in a texture: 1, 2 or 4 [1] */
+    /* A choice: masks have one pixel for 2 x 2 or 4 x 4 of the frame's, in a texture: 1, 2 or 4 [1; GN_METHOD_REFINE: 2] */
     uint32_t scale;
     gn_upsample upsample;
     int sharpen; /* 1: not NEAREST; what is between 0 and 1 then is narrowed to a pixel of the frame (GN_SHARPENED) */
@@ -184,6 +187,7 @@ typedef struct gn_record {
     int mcguire_case; /* 1: by z-pass; 2, 3: by z-fail; 0: on a patch */
     int mirrored;     /* the model matrix swaps front and back */
     int detached;     /* it starts on start_plane, and not at the caster */
+    int thin;         /* GN_METHOD_REFINE: a small mask may miss its shadow */
     gn_far far_end;
     double start_plane[4]; /* world */
     double end_plane[4];   /* world; the volume ends there. 0 0 0 1 is the plane at infinity */
@@ -200,7 +204,10 @@ typedef enum gn_step_kind {
     GN_STEP_DRAW,    /* the host's: see gn_draw */
     GN_STEP_FOLD,    /* where the count is not nought it becomes nought and the flag is set, by a quad in the scissor */
     GN_STEP_MARK,    /* patches are named in the stencil of the pixels where they are seen */
-    GN_STEP_DARKEN,  /* all of `patch` that is in the light's scissor is shadow: its seen side looks away */
+    /* GN_METHOD_REFINE: pixels of the light's scissor are named where its small mask is unanimous, and lit or shadowed as
+     * that says; where it is contested, or what is seen or shadows is thin, they have no name, and volumes are counted */
+    GN_STEP_REFINE,
+    GN_STEP_DARKEN,      /* all of `patch` that is in the light's scissor is shadow: its seen side looks away */
     GN_STEP_CLEAR_IMAGE, /* the image: its count to `start`, depth and stencil unless it borrows the target's depth */
     GN_STEP_CLEAR_MASK,  /* all of a mask texture is lit */
     GN_STEP_CLEAR_COLOR, /* the target's colour alone */
@@ -283,13 +290,14 @@ typedef enum gn_skip {
 
 typedef struct gn_plan_light {
     gn_method method;
-    char reason[256];                    /* why this method, and this way of it: a sentence */
-    gn_skip skip;                        /* not GN_SKIP_NOT: there is no step for it */
-    gn_stencil_layout stencil;           /* of methods that count there */
-    gn_color_layout color;               /* of the others; place is GN_PLACE_STENCIL for the former */
-    uint32_t mask_texture, mask_channel; /* GN_MASK_TEXTURE: where its mask is; GN_NO_MASK where nothing shadows */
-    int is_shadowed;                     /* something is counted for it */
-    double reach; /* what is farther is not lit, and a little more for rounding; INFINITY: no bound */
+    char reason[256];          /* why this method, and this way of it: a sentence */
+    gn_skip skip;              /* not GN_SKIP_NOT: there is no step for it */
+    gn_stencil_layout stencil; /* of methods that count there */
+    gn_color_layout color;     /* of the others; place is GN_PLACE_STENCIL for the former */
+    /* GN_MASK_TEXTURE, and the small masks of GN_METHOD_REFINE: where its mask is; GN_NO_MASK where nothing shadows */
+    uint32_t mask_texture, mask_channel;
+    int is_shadowed; /* something is counted for it */
+    double reach;    /* what is farther is not lit, and a little more for rounding; INFINITY: no bound */
     uint32_t
         scissor[4]; /* x, y, width, height in pixels: nothing outside is lit; the whole target: no bound; all 0: the
                                  light is skipped */
@@ -344,6 +352,7 @@ typedef struct gn_plan_object {
     unsigned flags;
     int mirrored;
     uint8_t patch;    /* of GN_MOST_PATCHES, which it is part of; 0: of none */
+    uint8_t thin;     /* GN_METHOD_REFINE: a small mask may miss it */
     float matrix[16]; /* positions less the mesh's centre to clip space: for every pass of this object */
 } gn_plan_object;
 

@@ -89,6 +89,7 @@ struct gn_mesh {
     uint32_t largest;        /* the triangle of the largest area */
     double radius;           /* of a ball about the hub */
     double longest_edge;
+    double thickness; /* of the thinnest part: see thin.c */
     gni_part *parts;
     uint32_t *part_triangles; /* sorted by part; degenerate triangles are in none */
     uint32_t part_triangle_count;
@@ -278,6 +279,7 @@ typedef struct gni_choice {
     gn_mask mask;
     gn_image image;
     gn_format mask_format;
+    int is_refined; /* masks are small ones first, and counted anew where those are contested */
     uint32_t lights_per_mask;
     double dimmed;    /* what a shadow leaves of a frame that is not GN_SHADE_ADDITIVE */
     char reason[256]; /* as in gn_plan_light */

@@ -191,6 +191,7 @@ typedef struct gni_draft {
     gni_bounds bounds;
     gni_view seen;                            /* through its scissor */
     int is_batched, uses_patches, is_colored; /* is_colored: its method counts in colour */
+    int is_refining;                          /* small masks are made: steps are the target's */
     uint32_t first_of_batch;                  /* record */
     uint64_t casting_count, cheap_layers;
 } gni_draft;
@@ -200,8 +201,16 @@ gn_step *gni_add_step(gni_draft *d, gn_step_kind kind, gn_draw draw, uint32_t li
 
 /* plan_passes.c: the frame's steps. */
 gn_result gni_add_passes(gni_draft *d);
+/* Depth and ambient light, or all light. */
+void gni_add_surfaces(gni_draft *d);
+/* What a light under a stencil or alpha adds, before the next one's mask. */
+void gni_add_own_passes(gni_draft *d, uint32_t light);
 /* The steps before the first light of a mask texture. */
 void gni_start_mask(gni_draft *d);
+
+/* plan_refine.c: the steps before lights, of small masks; after them all, the frame's. */
+void gni_start_refined(gni_draft *d);
+void gni_refine(gni_draft *d, uint32_t first_step);
 
 /* traffic.c */
 void gni_estimate_traffic(gn_plan *plan);
@@ -338,6 +347,10 @@ void gni_fold_color(gni_draft *d, int more_follows);
 int gni_find_slivers(const gni_draft *d, const gni_volume *volume, double eye[4], double heights[2]);
 uint32_t gni_put_slivers(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, const double eye[4],
                          const double heights[2], uint16_t *out);
+
+/* thin.c: whether a small mask may miss an object, or its shadow in the light at hand. */
+int gni_is_thin_image(const gni_draft *d, uint32_t object);
+int gni_is_thin_shadow(const gni_draft *d, uint32_t object, const gni_extent *extent);
 
 /* plan_volumes.c */
 /* Which parts of a volume its way of counting takes, and what way that is. */

@@ -42,7 +42,7 @@ static uint32_t batch_limit(const gn_scene *s)
 
     if (gni_counts_in_color(method))
         return gni_cuts_casters(method) ? gni_color_limit(s, method) : GNI_NONE;
-    return gn_target_can(&s->target, GN_CAN_STENCIL_WRAP) ? 127 : 63;
+    return gn_target_can(&s->target, GN_CAN_STENCIL_WRAP) && method != GN_METHOD_REFINE ? 127 : 63;
 }
 
 /* Cuts every array of a plan at its greatest size. Returns 0 when the sizes do not fit. */
@@ -80,10 +80,12 @@ static int lay_out(gni_draft *d, arena *a)
     d->plan = cut(a, 1, sizeof *d->plan);
     /* Before and after all lights there are up to eight. A light zeroes twice, starts a mask (three), marks once, darkens
      * each patch, resolves and draws twice; each of its batches holds a piece of a caster at least, and is resolved or
-     * folded, and zeroed. */
-    if (batches > (SIZE_MAX / 3 - 13) / (s->light_count ? s->light_count : 1))
+     * folded, and zeroed. Refined, it is named and zeroed twice more, and its batches come again. */
+    if (batches > (SIZE_MAX / 5 - 16) / (s->light_count ? s->light_count : 1))
         return 0;
-    d->steps = cut(a, 8 + (size_t)s->light_count * (9 + GN_MOST_PATCHES + 3 * batches), sizeof *d->steps);
+    d->steps = cut(
+        a, 8 + (size_t)s->light_count * (12 + GN_MOST_PATCHES + (gni_pick(s) == GN_METHOD_REFINE ? 5 : 3) * batches),
+        sizeof *d->steps);
     d->draws = cut(a, s->light_count, 1);
     d->lights = cut(a, s->light_count, sizeof *d->lights);
     d->objects = cut(a, s->object_count, sizeof *d->objects);
@@ -176,8 +178,8 @@ static void find_depth_limit(gni_draft *d)
 {
     const gn_scene *s = d->scene;
     const gn_camera *c = &s->camera;
-    const double half =
-        0.5 * d->plan->scale * fmin((c->top - c->bottom) / s->target.height, (c->right - c->left) / s->target.width);
+    const double half = 0.5 * (d->choice.is_refined ? 1 : d->plan->scale) *
+                        fmin((c->top - c->bottom) / s->target.height, (c->right - c->left) / s->target.width);
     const double steps = ldexp(0.25, s->target.depth_bits);
     double farthest = -INFINITY, nearest = INFINITY;
 
@@ -258,8 +260,8 @@ static void start_plan(gni_draft *d)
     plan->image = d->choice.image;
     plan->mask_format = d->choice.mask_format;
     plan->scale = scale_of(s);
-    plan->upsample = s->upsample;
-    plan->sharpen = s->sharpen && plan->scale > 1;
+    plan->upsample = d->choice.is_refined ? GN_UPSAMPLE_BILINEAR : s->upsample;
+    plan->sharpen = s->sharpen && plan->scale > 1 && !d->choice.is_refined;
     plan->carries_depth = gni_carries_depth(s);
     plan->viewport[0] = s->target.width;
     plan->viewport[1] = s->target.height;
@@ -348,6 +350,8 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     result = place_objects(d);
     if (result != GN_OK)
         return result;
+    for (uint32_t i = 0; i < s->object_count && d->choice.is_refined; i++)
+        d->objects[i].thin = (uint8_t)gni_is_thin_image(d, i);
     gni_find_patches(d);
     gni_find_fronts(d);
     d->plan->patch_count = d->patch_count;
@@ -380,15 +384,19 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
         return gn_fail(context, GN_E_SPACE, "gn_plan_make: %lu bytes given, %lu needed", (unsigned long)size,
                        (unsigned long)needed);
     own = *scene;
+    if (own.method == GN_METHOD_REFINE) {
+        own.scale = own.scale < 2 ? 2 : own.scale;
+        own.without |= GN_MEASURE_PATCHES; /* their bits name what is not contested */
+    }
     memset(&d, 0, sizeof d);
     d.context = context;
     d.scene = &own;
-    result = gni_choose(context, scene, &d.choice);
+    result = gni_choose(context, &own, &d.choice);
     if (result != GN_OK)
         return result;
     lay_out(&d, &a);
     d.is_colored = gni_counts_in_color(d.choice.method);
-    if (d.choice.image.depth_bits)
+    if (d.choice.image.depth_bits && !(d.choice.is_refined && own.target.depth_bits < d.choice.image.depth_bits))
         own.target.depth_bits = d.choice.image.depth_bits;
     widen(&own);
     if (own.shade != GN_SHADE_ADDITIVE) /* what is not lit is dimmed too: shadows must reach it */

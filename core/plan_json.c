@@ -54,8 +54,9 @@ static void put_record(gni_text *w, const gn_record *r)
     gni_put(w, ", \"end_reach\": ");
     put_number(w, r->end_reach);
     gni_put(w, ", \"cached\": %s", r->is_cached ? "true" : "false");
-    gni_put(w, ", \"slivers\": %s, \"patch\": %lu, \"unpatched\": %s, \"scissor\": ", r->slivers ? "true" : "false",
-            (unsigned long)r->patch, r->unpatched ? "true" : "false");
+    gni_put(w, ", \"slivers\": %s, \"patch\": %lu, \"unpatched\": %s, \"thin\": %s, \"scissor\": ",
+            r->slivers ? "true" : "false", (unsigned long)r->patch, r->unpatched ? "true" : "false",
+            r->thin ? "true" : "false");
     put_rectangle(w, r->scissor);
     gni_put(w, "}");
 }
@@ -63,7 +64,7 @@ static void put_record(gni_text *w, const gn_record *r)
 static void put_step(gni_text *w, const gn_step *s)
 {
     static const char *const kinds[GN_STEP_KIND_COUNT] = {
-        "clear",      "zero",        "volumes", "draw",      "fold", "mark",  "darken", "clear image",
+        "clear",      "zero",        "volumes", "draw",      "fold", "mark",  "refine", "darken", "clear image",
         "clear mask", "clear color", "resolve", "normalise", "copy", "shade", "opaque", "discard"};
     static const char *const draws[GN_DRAW_COUNT] = {"nothing", "ambient", "light", "final", "depth", "lit"};
     static const char *const intos[] = {"target", "image", "mask", "corner"};

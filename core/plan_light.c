@@ -219,7 +219,7 @@ static void take_channel(gni_draft *d)
     gn_plan_light *about = &d->lights[d->light];
     const uint32_t index = d->mask_count++;
 
-    about->mask_texture = index / d->choice.lights_per_mask;
+    about->mask_texture = index / d->choice.lights_per_mask + (d->choice.is_refined ? 1 : 0);
     about->mask_channel = index % d->choice.lights_per_mask;
     if (about->mask_channel == 0)
         gni_start_mask(d);
@@ -259,16 +259,16 @@ static gn_result add_mask(gni_draft *d)
     gn_plan_light *about = &d->lights[d->light];
     const uint32_t first = d->plan->step_count, record = d->plan->record_count;
     const gni_stain stain = d->stain;
-    const int were_marked = d->are_marked;
+    const int were_marked = d->are_marked, are_textures = d->choice.mask_format != GN_FORMAT_NONE;
     uint32_t step;
     gn_result result;
 
-    if (d->plan->mask == GN_MASK_TEXTURE)
+    if (are_textures)
         take_channel(d);
     step = d->plan->step_count;
     result = d->is_colored ? add_colored(d) : add_volumes(d);
     about->is_shadowed = d->plan->record_count > record || (d->uses_patches && any_is_dark(d));
-    if (d->plan->mask != GN_MASK_TEXTURE)
+    if (!are_textures)
         return result;
     if (about->is_shadowed && !d->is_colored && d->plan->step_count > step)
         gni_add_step(d, GN_STEP_RESOLVE, GN_DRAW_NOTHING, d->light, 0);

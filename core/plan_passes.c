@@ -8,10 +8,13 @@
 
 #include <string.h>
 
-static gn_into into_of(const gn_plan *plan, gn_step_kind kind, gn_draw draw)
+static gn_into into_of(const gni_draft *d, gn_step_kind kind, gn_draw draw)
 {
-    const int has_image = plan->image.format != GN_FORMAT_NONE;
-    const gn_into counted = has_image ? GN_INTO_IMAGE : plan->scale > 1 ? GN_INTO_CORNER : GN_INTO_TARGET;
+    const gn_plan *plan = d->plan;
+    const int has_image = plan->image.format != GN_FORMAT_NONE && !d->is_refining;
+    const gn_into counted = has_image                                  ? GN_INTO_IMAGE
+                            : plan->scale > 1 && !d->choice.is_refined ? GN_INTO_CORNER
+                                                                       : GN_INTO_TARGET;
 
     switch (kind) {
     case GN_STEP_ZERO:
@@ -39,7 +42,7 @@ gn_step *gni_add_step(gni_draft *d, gn_step_kind kind, gn_draw draw, uint32_t li
     memset(step, 0, sizeof *step);
     step->kind = kind;
     step->draw = draw;
-    step->into = into_of(d->plan, kind, draw);
+    step->into = into_of(d, kind, draw);
     step->light = light;
     step->receivers = receivers;
     step->mask = light == GN_NO_LIGHT ? GN_NO_MASK : d->lights[light].mask_texture;
@@ -61,7 +64,7 @@ static int is_screen(const gni_draft *d)
     return d->choice.color.place == GN_PLACE_COLOR;
 }
 
-static void add_surfaces(gni_draft *d)
+void gni_add_surfaces(gni_draft *d)
 {
     gni_add_step(d, GN_STEP_DRAW, d->plan->shade == GN_SHADE_ADDITIVE ? GN_DRAW_AMBIENT : GN_DRAW_LIT, GN_NO_LIGHT, 1);
 }
@@ -92,7 +95,7 @@ static void start_masks(gni_draft *d)
     if (image->format == GN_FORMAT_NONE || image->depth_bits == 0)
         add(d, GN_STEP_CLEAR);
     if (image->format != GN_FORMAT_NONE && image->depth_bits == 0)
-        add_surfaces(d);
+        gni_add_surfaces(d);
     if (image->format != GN_FORMAT_NONE)
         add(d, GN_STEP_CLEAR_IMAGE);
     if (image->format == GN_FORMAT_NONE || image->depth_bits > 0)
@@ -113,7 +116,7 @@ void gni_start_mask(gni_draft *d)
     if (is_screen(d)) {
         if (texture > 0)
             copy_mask(d, texture - 1);
-    } else if (texture > 0 || !d->plan->image.stencil_bits) {
+    } else if (texture > 0 || d->choice.is_refined || !d->plan->image.stencil_bits) {
         gni_add_step(d, GN_STEP_CLEAR_MASK, GN_DRAW_NOTHING, d->light, 0);
     }
 }
@@ -131,7 +134,7 @@ static void end_masks(gni_draft *d, uint32_t first_step)
         d->plan->step_count = first_step;
         d->plan->image = none;
         add(d, GN_STEP_CLEAR);
-        add_surfaces(d);
+        gni_add_surfaces(d);
         return;
     }
     if (is_screen(d))
@@ -140,7 +143,7 @@ static void end_masks(gni_draft *d, uint32_t first_step)
         add(d, GN_STEP_DISCARD)->into = GN_INTO_IMAGE;
     if (!is_drawn) {
         add(d, is_screen(d) && d->plan->scale == 1 ? GN_STEP_CLEAR_COLOR : GN_STEP_CLEAR);
-        add_surfaces(d);
+        gni_add_surfaces(d);
     }
 }
 
@@ -175,8 +178,7 @@ static void add_light_passes(gni_draft *d)
             add_group(d, &light, draws);
 }
 
-/* What a light under a stencil or alpha adds, before the next one's mask. */
-static void add_own_passes(gni_draft *d, uint32_t light)
+void gni_add_own_passes(gni_draft *d, uint32_t light)
 {
     const int is_once = d->scene->blend_once, is_alpha = d->plan->mask == GN_MASK_ALPHA;
     gn_step *step;
@@ -206,20 +208,24 @@ gn_result gni_add_passes(gni_draft *d)
     const uint32_t first_step = d->plan->step_count;
     gn_result result = GN_OK;
 
-    if (are_textures) {
+    if (d->choice.is_refined) {
+        gni_start_refined(d);
+    } else if (are_textures) {
         start_masks(d);
     } else {
         add(d, GN_STEP_CLEAR);
-        add_surfaces(d);
+        gni_add_surfaces(d);
     }
     for (uint32_t light = 0; light < d->scene->light_count && result == GN_OK; light++) {
         d->draws[light] = 0;
         result = gni_add_light(d, light);
-        if (!are_textures)
-            add_own_passes(d, light);
+        if (!are_textures && !d->choice.is_refined)
+            gni_add_own_passes(d, light);
     }
     if (result != GN_OK)
         return result;
+    if (d->choice.is_refined)
+        gni_refine(d, first_step);
     if (are_textures) {
         end_masks(d, first_step);
         add_light_passes(d);

@@ -77,7 +77,8 @@ static void start_record(gn_record *r, const gni_draft *d, const gni_volume *v, 
     r->mirrored = d->objects[v->object].mirrored;
     r->far_end = v->far_end;
     r->end_reach = v->end_reach;
-    r->unpatched = v->unpatched;
+    r->unpatched = v->unpatched || d->choice.is_refined; /* what has no name */
+    r->thin = d->choice.is_refined && gni_is_thin_shadow(d, v->object, v->extent);
     memcpy(r->scissor, scissor, sizeof r->scissor);
 }
 
@@ -98,7 +99,7 @@ static int is_fan(const gni_draft *d, const gni_volume *v, uint32_t count, uint3
 
     if (v[count - 1].start_plane)
         return 1;
-    if (d->lights[d->light].method != GN_METHOD_STENCIL || v->end_reach > 0.0 || v->far_end == GN_FAR_CLAMPED ||
+    if (!gni_models_less(d->lights[d->light].method) || v->end_reach > 0.0 || v->far_end == GN_FAR_CLAMPED ||
         !is_better_fan(mesh, side_count / of_a_side, triangles))
         return 0;
     if (v->far_end == GN_FAR_ENDED)
@@ -220,7 +221,7 @@ static const gni_stream *stream_for(gni_draft *d, const gni_volume *v, int *kind
     *kind = v->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? GNI_STREAM_CONVERGING : kind_of_cap(d, mesh);
     stream = gni_make_stream(d, v->object, *kind);
     if (!stream || *kind != GNI_STREAM_FAN || v->far_end == GN_FAR_ENDED ||
-        (v->far_end == GN_FAR_INFINITE && d->slot->runs_round && d->lights[d->light].method == GN_METHOD_STENCIL &&
+        (v->far_end == GN_FAR_INFINITE && d->slot->runs_round && gni_models_less(d->lights[d->light].method) &&
          gni_light_is_outside(&d->boxes[v->object], d->bounds.light)))
         return stream;
     *kind = GNI_STREAM_CAP; /* a fan at infinity would not do */

@@ -129,6 +129,10 @@ static void note_step(gn_plan *plan, const buffers *b, const gn_step *step)
     case GN_STEP_DRAW:
         note_draw(plan, b, step);
         break;
+    case GN_STEP_REFINE:
+        note(t, &t->masks, 0.0, 2.0 * pixels * b->mask); /* a quad each for what is lit and what is not */
+        note(t, &t->target_depth, pixels * b->depth, 0.0);
+        break;
     case GN_STEP_FOLD:
         note_count(plan, b, step, quads_of(plan, step) * pixels, 0);
         break;

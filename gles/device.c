@@ -99,6 +99,8 @@ void gn_gles_destroy(gn_gles *g)
         g->gl.glDeleteProgram(g->resolve.name);
         g->gl.glDeleteProgram(g->shade.name);
         g->gl.glDeleteProgram(g->carry.name);
+        g->gl.glDeleteProgram(g->edges.name);
+        g->gl.glDeleteProgram(g->agree.name);
         gni_delete_images(g);
     }
     if (g->images.masks)

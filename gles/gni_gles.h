@@ -56,14 +56,20 @@ typedef struct gni_program {
 /* quad.vert over a shader that reads a texture. */
 typedef struct gni_reader {
     GLuint name;
-    GLint texture, weights, level, unused, dimmed;
+    GLint texture, weights, level, unused, dimmed, step;
 } gni_reader;
+
+/* fallback/refine.c */
+int gni_make_refining_programs(gn_gles *g, const char *defines); /* 0 on failure */
+void gni_find_edges(gn_gles *g); /* of the depth in the first mask, into the one that is bound */
+void gni_refine_step(gn_gles *g, const gn_step *step);
 
 /* fallback/images.c: what counts and masks are made in, of the size and kind of the plan begun last. */
 typedef struct gni_images {
     gn_image image;
     gn_format mask_format;
     gn_upsample upsample;
+    int carries_depth;
     uint32_t width, height, mask_count, mask_capacity;
     GLuint borrowed;                  /* the depth renderbuffer that is the target's */
     GLuint framebuffer, count, depth; /* count: a texture; 0 where the image's colour is a mask */
@@ -79,10 +85,10 @@ struct gn_gles {
     GLuint quad, indices, cached; /* cached: of a shadow cache */
     uint32_t cache_id;            /* what is in it, of which version, and how large it is */
     uint32_t cache_version, cached_capacity;
-    gni_program colored, counted;     /* in one colour, and in none */
-    gni_program sided;                /* discards one side of triangles, in no colour; its name is 0 until it is made */
-    gni_program sided_color, faced;   /* the same in one colour; a colour a side: as are they */
-    gni_reader resolve, shade, carry; /* and they */
+    gni_program colored, counted;   /* in one colour, and in none */
+    gni_program sided;              /* discards one side of triangles, in no colour; its name is 0 until it is made */
+    gni_program sided_color, faced; /* the same in one colour; a colour a side: as are they */
+    gni_reader resolve, shade, carry, edges, agree; /* and they */
     gni_images images;
     gn_into into;              /* what is bound */
     uint32_t box[4];           /* around the lights of the pass at hand */
@@ -118,7 +124,7 @@ void gni_reset_state(gn_gles *g);
 void gni_leave_state(gn_gles *g); /* as in a new context */
 
 /* program.c: 0 on failure; the driver's log goes to the port under the name given. Attribute 0 is a_position. defines:
- * lines for the fragment shader, "" mostly. */
+ * lines for both shaders, "" mostly. */
 GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const char *vertex, const char *fragment);
 
 /* quad.vert over another. 0 on failure. */
@@ -143,7 +149,8 @@ void gni_end_volumes(gn_gles *g);
 void gni_bound(gni_state *s, const gn_plan *plan, const gn_plan_light *light, const uint32_t scissor[4]);
 /* A quad over the step's light's part of the target, or all of it; color NULL: none is written. */
 void gni_fill_quad(gn_gles *g, const gn_step *step, gni_state state, const float color[4]);
-/* The same by a program that reads a texture, in use and with its uniforms set. */
+/* A program that reads a texture, for gni_draw_reader(); uniforms of its own may be set between. */
+void gni_use_reader(gn_gles *g, const gni_reader *reader, GLuint texture);
 void gni_draw_reader(gn_gles *g, const gn_step *step, gni_state state);
 
 /* Which faces a draw counts: both at once, else those that count up, then the others. */
@@ -159,6 +166,8 @@ gni_state gni_stencil_light(const gn_plan *plan, const gn_plan_light *light, gni
 /* Where the count is the light's, or is not (GL_NOTEQUAL): nothing else is set. */
 gni_state gni_where_count(const gn_plan_light *light, GLenum func);
 void gni_stencil_step(gn_gles *g, const gn_step *step);
+/* A patch's name, in the bits above count and flag. */
+GLint gni_patch_name(const gn_stencil_layout *layout, uint32_t patch);
 int gni_backs_rise(const gn_record *r, int turned);
 int gni_shows_backs(const gn_record *r, int turned, gni_half half);
 

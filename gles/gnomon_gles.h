@@ -45,8 +45,8 @@
  *     on exit    after gn_gles_next() has returned 0: all of these, cull face, polygon offset, depth clamp, depth
  *                bounds, clear depth and clear stencil are as in a new context, but the viewport and the scissor's box,
  *                which are the target's; the target's framebuffer is bound. Of plans that count in colour dither is on
- *                and the target's alpha 1 if the count was there; with masks in textures TEXTURE0 is active, without a
- *                2D texture, from the first step after them on; where gn_gles_begin() made images no renderbuffer is
+ *                and the target's alpha 1 if the count was there; with masks in textures, or refined, TEXTURE0 is active,
+ *                without a 2D texture, from the first step after them on; where gn_gles_begin() made images no renderbuffer is
  *                bound. Nothing else was ever touched: other textures, clear colour, pixel store, attribute pointers
  *                but that of array 0
  *
@@ -114,7 +114,7 @@ size_t gn_gles_save_target(const gn_gles *gl, const gn_target *target, char *tex
 gn_result gn_gles_upload(gn_gles *gl, const gn_mesh *mesh);
 void gn_gles_unload(gn_gles *gl, const gn_mesh *mesh); /* does nothing for one that is not there */
 
-/* Starts a frame: checks that every caster of the plan is uploaded and sends the plan's indices. The first plan that
+/* Starts a frame: checks that every caster of the plan is uploaded (and what is on a patch, or thin) and sends the plan's indices. The first plan that
  * counts one side at a time, or in colour, also has shaders compiled, and one with masks in textures has images made, of
  * the target's size: kept until a plan needs others. The plan must stay until the walk has ended. Returns GN_OK; GN_E_ARG;
  * GN_E_MEMORY; GN_E_DEVICE when a shader or a framebuffer is refused. */

@@ -45,7 +45,7 @@ static GLuint compile(gn_gles *g, GLenum type, const char *name, const char *def
 GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const char *vertex, const char *fragment)
 {
     const gn_gl *gl = &g->gl;
-    const GLuint v = compile(g, GL_VERTEX_SHADER, name, "", vertex);
+    const GLuint v = compile(g, GL_VERTEX_SHADER, name, defines, vertex);
     const GLuint f = compile(g, GL_FRAGMENT_SHADER, name, defines, fragment);
     GLuint program = v && f ? gl->glCreateProgram() : 0;
     GLint ok = 0;
@@ -101,5 +101,6 @@ int gni_make_reader(gn_gles *g, gni_reader *out, const char *name, const char *d
     out->level = gl->glGetUniformLocation(out->name, "u_level");
     out->unused = gl->glGetUniformLocation(out->name, "u_unused");
     out->dimmed = gl->glGetUniformLocation(out->name, "u_dimmed");
+    out->step = gl->glGetUniformLocation(out->name, "u_step");
     return 1;
 }

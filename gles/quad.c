@@ -40,6 +40,16 @@ void gni_fill_quad(gn_gles *g, const gn_step *step, gni_state state, const float
     gni_end_volumes(g);
 }
 
+void gni_use_reader(gn_gles *g, const gni_reader *reader, GLuint texture)
+{
+    const gn_gl *gl = &g->gl;
+
+    gl->glUseProgram(reader->name);
+    gl->glActiveTexture(GL_TEXTURE0);
+    gl->glBindTexture(GL_TEXTURE_2D, texture);
+    gl->glUniform1i(reader->texture, 0);
+}
+
 void gni_draw_reader(gn_gles *g, const gn_step *step, gni_state state)
 {
     set_quad_state(g, step, &state);

@@ -62,15 +62,14 @@ static gni_state fold(const gn_stencil_layout *layout)
     return s;
 }
 
-static GLint name_of(const gn_stencil_layout *layout, uint32_t patch)
+GLint gni_patch_name(const gn_stencil_layout *layout, uint32_t patch)
 {
-    return (GLint)(patch << layout->bits);
+    return (GLint)(patch << (8 - layout->patch_bits));
 }
 
-/* The bits above the count. */
 static GLuint name_mask(const gn_stencil_layout *layout)
 {
-    return ((1u << layout->patch_bits) - 1u) << layout->bits;
+    return 255u & ~(GLuint)layout->mask;
 }
 
 /* The quad that counts once all that is seen of a patch. */
@@ -79,7 +78,7 @@ static gni_state darken(const gn_stencil_layout *layout, uint32_t patch)
     gni_state s = reset(layout);
 
     s.stencil_func = GL_EQUAL;
-    s.stencil_reference = name_of(layout, patch) | 1;
+    s.stencil_reference = gni_patch_name(layout, patch) | 1;
     s.stencil_mask = name_mask(layout);
     return s;
 }
@@ -91,7 +90,7 @@ static gni_state mark(const gn_stencil_layout *layout, uint32_t patch)
     const gni_state s = {.stencil_write = name_mask(layout),
                          .depth_func = GL_EQUAL,
                          .stencil_func = GL_ALWAYS,
-                         .stencil_reference = name_of(layout, patch),
+                         .stencil_reference = gni_patch_name(layout, patch),
                          .stencil_mask = ~0u,
                          .front = replace,
                          .back = replace};
@@ -140,7 +139,7 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, g
         s.depth_func = 0;
         s.offset = 0;
         s.stencil_func = GL_EQUAL;
-        s.stencil_reference = name_of(layout, r->patch);
+        s.stencil_reference = gni_patch_name(layout, r->patch);
         s.stencil_mask = name_mask(layout);
     }
     if (r->unpatched) {

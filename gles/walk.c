@@ -85,7 +85,7 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
         may_switch |= plan->records[i].far_end == GN_FAR_CLAMPED ? GNI_SWITCH_CLAMP : 0u;
     }
     for (uint32_t i = 0; i < plan->object_count; i++)
-        if (plan->objects[i].patch && !is_uploaded(g, plan, i))
+        if ((plan->objects[i].patch || plan->objects[i].thin) && !is_uploaded(g, plan, i))
             return GN_E_ARG;
     for (uint32_t i = 0; i < plan->light_count; i++) {
         const gn_plan_light *l = &plan->lights[i];
@@ -94,7 +94,7 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
             may_switch |= GNI_SWITCH_BOUNDS;
         discards |= l->stencil.discard;
     }
-    if (plan->mask != GN_MASK_STENCIL)
+    if (plan->mask != GN_MASK_STENCIL || plan->carries_depth)
         may_switch |= GNI_SWITCH_DITHER;
     if (discards && !g->sided.name &&
         !gni_make_flat_program(g, &g->sided, "one side of volumes", "#define COUNTED\n#define SIDED\n"))

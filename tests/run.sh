@@ -51,6 +51,8 @@ table "all scenes" truth ${TRUTH_ARGS:-}
 table "the extremes" extremes --extremes --size 160x120
 table "the extremes in 16 bits of depth" extremes16 --extremes --size 160x120 --depth 16
 table "small scenes in 16 bits of depth" truth16 --size 160x120 --depth 16 --drivers llvmpipe
+table "refined small masks" refine --size 160x120 --ways zfail,refine
+table "refined small masks, the extremes" refine-extremes --extremes --size 160x120 --drivers llvmpipe,softpipe --ways zfail,refine
 without_stencil=zfail,count,count-565,count-two,signed,signed-fbo,alpha,screen,mediump
 table "counts in colour" color --size 160x120 --ways $without_stencil
 table "counts in colour, the extremes" color-extremes --extremes --size 160x120 --drivers llvmpipe,softpipe --ways $without_stencil

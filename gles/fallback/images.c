@@ -112,8 +112,8 @@ static GLuint borrowed_by(const gn_plan *plan)
 static int are_there(const gni_images *m, const gn_plan *plan)
 {
     return m->width == plan->mask_size[0] && m->height == plan->mask_size[1] && m->upsample == plan->upsample &&
-           memcmp(&m->image, &plan->image, sizeof m->image) == 0 && m->mask_format == plan->mask_format &&
-           m->mask_count >= plan->mask_count && m->borrowed == borrowed_by(plan);
+           m->carries_depth == plan->carries_depth && memcmp(&m->image, &plan->image, sizeof m->image) == 0 &&
+           m->mask_format == plan->mask_format && m->mask_count >= plan->mask_count && m->borrowed == borrowed_by(plan);
 }
 
 static gn_result check(gn_gles *g, const char *what)
@@ -125,6 +125,12 @@ static gn_result check(gn_gles *g, const char *what)
     return gn_fail(g->context, GN_E_DEVICE,
                    "gn_gles_begin: the GL makes no framebuffer of %lux%lu pixels for %s (0x%04X)",
                    (unsigned long)g->images.width, (unsigned long)g->images.height, what, status);
+}
+
+/* But depth, alone in the first texture of masks that are refined, is no filter's. */
+static int is_filtered(const gn_plan *plan, uint32_t mask)
+{
+    return plan->upsample == GN_UPSAMPLE_BILINEAR && !(plan->carries_depth && mask == 0);
 }
 
 static gn_result make(gn_gles *g, const gn_plan *plan)
@@ -142,10 +148,11 @@ static gn_result make(gn_gles *g, const gn_plan *plan)
     m->width = plan->mask_size[0];
     m->height = plan->mask_size[1];
     m->upsample = plan->upsample;
+    m->carries_depth = plan->carries_depth;
     m->borrowed = borrowed_by(plan);
     for (; m->mask_count < plan->mask_count; m->mask_count++)
         m->masks[m->mask_count] =
-            make_texture(g, plan->mask_format, m->upsample == GN_UPSAMPLE_BILINEAR ? GL_LINEAR : GL_NEAREST);
+            make_texture(g, plan->mask_format, is_filtered(plan, m->mask_count) ? GL_LINEAR : GL_NEAREST);
     if (has_image) {
         make_image(g);
         result = check(g, "counts");
@@ -170,7 +177,8 @@ gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan)
         return GN_OK;
     if (!gni_make_reader(g, &g->resolve, "resolve", defines, gni_shader_resolve_frag) ||
         !gni_make_reader(g, &g->shade, "shade", defines, gni_shader_shade_frag) ||
-        !gni_make_reader(g, &g->carry, "carry", defines, gni_shader_carry_frag))
+        !gni_make_reader(g, &g->carry, "carry", defines, gni_shader_carry_frag) ||
+        (plan->mask == GN_MASK_STENCIL && !gni_make_refining_programs(g, defines)))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses a shader of masks: see the log");
     return are_there(&g->images, plan) ? GN_OK : make(g, plan);
 }

@@ -41,16 +41,6 @@ static void clear_image(gn_gles *g)
     fill(g, g->plan->image.stencil_bits ? 1.0f : (float)layout->start / (float)layout->top);
 }
 
-static void use_reader(gn_gles *g, const gni_reader *reader, GLuint texture)
-{
-    const gn_gl *gl = &g->gl;
-
-    gl->glUseProgram(reader->name);
-    gl->glActiveTexture(GL_TEXTURE0);
-    gl->glBindTexture(GL_TEXTURE_2D, texture);
-    gl->glUniform1i(reader->texture, 0);
-}
-
 static void resolve(gn_gles *g, const gn_step *step)
 {
     const gn_plan_light *l = &g->plan->lights[step->light];
@@ -64,7 +54,7 @@ static void resolve(gn_gles *g, const gn_step *step)
         gni_fill_quad(g, step, state, none);
         return;
     }
-    use_reader(g, &g->resolve, g->images.count);
+    gni_use_reader(g, &g->resolve, g->images.count);
     g->gl.glUniform4fv(g->resolve.weights, 1, weights);
     g->gl.glUniform1f(g->resolve.level, l->color.other_top ? 0.0f : (float)l->color.start);
     gni_draw_reader(g, step, state);
@@ -88,7 +78,7 @@ static void carry(gn_gles *g, const gn_step *step)
     const gni_state state = {.color_mask = ALL, .undithered = 1};
     const gn_step everywhere = {.light = GN_NO_LIGHT};
 
-    use_reader(g, &g->carry, step->mask > 0 ? g->images.masks[0] : g->images.count);
+    gni_use_reader(g, &g->carry, step->mask > 0 ? g->images.masks[0] : g->images.count);
     gni_draw_reader(g, &everywhere, state);
     g->gl.glBindTexture(GL_TEXTURE_2D, 0);
 }
@@ -126,7 +116,7 @@ static void shade_by_texture(gn_gles *g, const gn_step *step)
         unused[g->plan->lights[step->lights[i]].mask_channel] = 0.0f;
     if (step->light_count > 1)
         all.light = GN_NO_LIGHT;
-    use_reader(g, &g->shade, g->images.masks[step->mask]);
+    gni_use_reader(g, &g->shade, g->images.masks[step->mask]);
     g->gl.glUniform4fv(g->shade.unused, 1, unused);
     g->gl.glUniform1f(g->shade.dimmed, (float)g->plan->dimmed);
     gni_draw_reader(g, &all, multiply);
@@ -179,10 +169,15 @@ void gni_mask_step(gn_gles *g, const gn_step *step)
         clear_image(g);
         break;
     case GN_STEP_CLEAR_MASK:
-        if (g->plan->carries_depth)
+        if (g->plan->mask == GN_MASK_STENCIL)
+            gni_find_edges(g);
+        else if (g->plan->carries_depth)
             carry(g, step);
         else
             fill(g, 1.0f);
+        break;
+    case GN_STEP_REFINE:
+        gni_refine_step(g, step);
         break;
     case GN_STEP_RESOLVE:
         resolve(g, step);

@@ -22,13 +22,10 @@ static const struct {
     uint32_t hidden;
     int merges;
 } ways[] = {
-    {"stencil", GN_METHOD_STENCIL, 0, 0},
-    {"stencil-merged", GN_METHOD_STENCIL, 0, 1},
-    {"count", GN_METHOD_COUNT, 0, 0},
-    {"signed", GN_METHOD_SIGNED, 0, 0},
-    {"signed-image", GN_METHOD_SIGNED, 1u << GN_CAN_ALPHA, 0},
-    {"alpha", GN_METHOD_ALPHA, 0, 0},
-    {"screen", GN_METHOD_SCREEN, 0, 0},
+    {"stencil", GN_METHOD_STENCIL, 0, 0}, {"stencil-merged", GN_METHOD_STENCIL, 0, 1},
+    {"refine", GN_METHOD_REFINE, 0, 0},   {"count", GN_METHOD_COUNT, 0, 0},
+    {"signed", GN_METHOD_SIGNED, 0, 0},   {"signed-image", GN_METHOD_SIGNED, 1u << GN_CAN_ALPHA, 0},
+    {"alpha", GN_METHOD_ALPHA, 0, 0},     {"screen", GN_METHOD_SCREEN, 0, 0},
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 

@@ -1,6 +1,6 @@
 /* test_fill.c - ends, scissors and patches against z-fail throughout: from random places in and around every scene the
  * masks differ in single pixels at most, and these lie on a border of the shadow or of a surface; fragments are never
- * more, and each measure comes up. */
+ * more, and each measure comes up. Where the plan warns of coarse depth more may differ, on borders too. */
 #include "gn_test.h"
 #include "stage.h"
 #include "views.h"
@@ -26,7 +26,7 @@ static int is_border(const uint8_t *rgba, int pixel)
 static void only_borders_move(void **state)
 {
     static uint8_t rgba[2][4 * PIXELS];
-    uint64_t fragments[2] = {0, 0}, differ = 0, views = 0, ended = 0, patched = 0, cut = 0;
+    uint64_t fragments[2] = {0, 0}, differ = 0, doubtful = 0, views = 0, ended = 0, patched = 0, cut = 0;
     uint32_t rng = 77u;
     FILE *list = fopen("build/scenes/scenes.txt", "r");
     char line[256], name[64];
@@ -69,7 +69,7 @@ static void only_borders_move(void **state)
             for (int i = 0; i < PIXELS; i++) {
                 if (memcmp(rgba[0] + 4 * i, rgba[1] + 4 * i, 2) == 0)
                     continue;
-                differ++;
+                *(s->plan->warnings & 1u << GN_WARN_DEPTH ? &doubtful : &differ) += 1;
                 if (!is_border(rgba[0], i) && !is_border(rgba[1], i))
                     fail_msg("%s, view %d, light %u: pixel %d, %d differs", path, view, (unsigned)light, i % WIDTH,
                              i / WIDTH);
@@ -86,12 +86,13 @@ static void only_borders_move(void **state)
         scene_free(&loaded);
     }
     fclose(list);
-    print_message("           %lu views, %lu pixels differ; %lu volumes end, %lu are cut, %lu projections; %.3f of the "
+    print_message("           %lu views, %lu pixels differ, %lu where depth is too coarse; %lu volumes end, %lu are "
+                  "cut, %lu projections; %.3f of the "
                   "fragments\n",
-                  (unsigned long)views, (unsigned long)differ, (unsigned long)ended, (unsigned long)cut,
-                  (unsigned long)patched, (double)fragments[1] / (double)fragments[0]);
+                  (unsigned long)views, (unsigned long)differ, (unsigned long)doubtful, (unsigned long)ended,
+                  (unsigned long)cut, (unsigned long)patched, (double)fragments[1] / (double)fragments[0]);
     assert_true(views > 400 && ended > 400 && patched > 40 && cut > 100);
-    assert_true(differ < views / 20);
+    assert_true(differ < views / 50 && doubtful < views / 10);
     assert_true(fragments[1] < fragments[0] / 4 * 3);
 }
 

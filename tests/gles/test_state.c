@@ -283,7 +283,8 @@ static void the_promised_state_holds_in_colour(void **state)
         {GN_METHOD_COUNT, 0, GN_SHADE_ADDITIVE},  {GN_METHOD_COUNT, 1u << GN_CAN_FRONT_FACING, GN_SHADE_BLACK},
         {GN_METHOD_SIGNED, 0, GN_SHADE_ADDITIVE}, {GN_METHOD_SIGNED, 1u << GN_CAN_ALPHA, GN_SHADE_ATTENUATE},
         {GN_METHOD_ALPHA, 0, GN_SHADE_ATTENUATE}, {GN_METHOD_ALPHA, 1u << GN_CAN_BLEND_MINMAX, GN_SHADE_ATTENUATE},
-        {GN_METHOD_SCREEN, 0, GN_SHADE_ADDITIVE}, {GN_METHOD_STENCIL, 0, GN_SHADE_ADDITIVE}};
+        {GN_METHOD_SCREEN, 0, GN_SHADE_ADDITIVE}, {GN_METHOD_STENCIL, 0, GN_SHADE_ADDITIVE},
+        {GN_METHOD_REFINE, 0, GN_SHADE_ADDITIVE}, {GN_METHOD_REFINE, 0, GN_SHADE_ATTENUATE}};
 
     (void)state;
     for (size_t way = 0; way < sizeof ways / sizeof ways[0]; way++) {
@@ -311,13 +312,13 @@ static void the_promised_state_holds_in_colour(void **state)
         take(&before);
         assert_int_equal(gn_gles_begin(gles, f.plan), GN_OK);
         while (gn_gles_next(gles, &step)) {
-            if (ways[way].method != GN_METHOD_STENCIL)
+            if (ways[way].method >= GN_METHOD_COUNT)
                 check_color_step(&step, f.plan, value_of(&fresh, GL_FRAMEBUFFER_BINDING));
             disturb();
         }
         take(&after);
         for (int i = 0; i < STATES; i++) {
-            const int is_texture = states[i].name == GL_ACTIVE_TEXTURE && f.plan->mask == GN_MASK_TEXTURE;
+            const int is_texture = states[i].name == GL_ACTIVE_TEXTURE && f.plan->mask_count > 0;
             const int is_fresh = states[i].touched || states[i].name == GL_DITHER || is_texture;
 
             if (states[i].name == GL_VIEWPORT || states[i].name == GL_SCISSOR_BOX)

@@ -261,8 +261,7 @@ static void half_floats_do(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(nothing_leaks_by_depth),
-                                       cmocka_unit_test(sharpened_edges_are_nearer),
-                                       cmocka_unit_test(half_floats_do)};
+                                       cmocka_unit_test(sharpened_edges_are_nearer), cmocka_unit_test(half_floats_do)};
 
     return cmocka_run_group_tests_name("upsample", tests, measure_once, NULL);
 }

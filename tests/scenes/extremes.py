@@ -205,3 +205,21 @@ def nearly_singular(s):
     s.lamp((0.7, 3.1, -1.3), 26.0)
     s.sun((-0.5, 1.0, 0.8), 0.6)
     s.eye(EYE, TARGET)
+
+
+@scene("zpass", "extreme", "the eye is above the shadows")
+def fence(s):
+    """A fence whose posts and rails are a pixel wide at 320x240, in one mesh, askew; beside it rods
+    that are meshes of their own: small masks may miss them, and their shadows."""
+    wide, high = 0.016, 0.9
+    posts = [block((0.3 * i, 0.0, 0.0), (0.3 * i + wide, high, wide)) for i in range(-5, 6)]
+    rails = [block((-1.6, y, 0.0), (1.6, y + wide, wide)) for y in (0.3, 0.7)]
+    s.ground(4.0)
+    s.thing(joined(*posts, *rails), s.material(OCHRE), turn=turn_y(17.0))
+    for i in range(4):
+        s.thing(block((0.0, 0.0, 0.0), (wide, 1.1, wide)), s.material(BLUE), at=(0.5 * i - 0.6, 0.0, 1.2),
+                turn=after(turn_y(31.0 * i), turn_z(20.0)))
+    s.block_at(cube(0.6), RED, (1.3, 0.3, -1.2), 30.0)
+    s.lamp((1.7, 2.6, -2.2), 30.0)
+    s.sun((0.6, 1.0, -0.7), 0.6)
+    s.eye(EYE, TARGET)

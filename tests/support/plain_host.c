@@ -15,12 +15,20 @@ static const char fragment_source[] = "uniform mediump vec4 u_color;\n"
                                       "uniform mediump vec4 u_channels;\n"
                                       "void main()\n"
                                       "{\n"
+                                      "#ifdef GN_DEPTH_COLOR\n"
+                                      "    gl_FragColor = gn_mask_depth_color();\n"
+                                      "#else\n"
                                       "    gl_FragColor = u_color * dot(gn_mask(), u_channels);\n"
+                                      "#endif\n"
                                       "}\n";
 
-static GLuint compile(const gn_gl *gl, GLenum kind, int is_masked)
+/* Programs of a host. */
+enum { BARE, MASKED, DEPTH };
+
+static GLuint compile(const gn_gl *gl, GLenum kind, int program)
 {
-    const char *const parts[4] = {"#version 100\n", is_masked ? "#define GN_MASKED\n" : "",
+    static const char *const defines[] = {"", "#define GN_MASKED\n", "#define GN_DEPTH_COLOR\n"};
+    const char *const parts[4] = {"#version 100\n", defines[program],
                                   kind == GL_VERTEX_SHADER ? GN_GLSL_POSITION GN_GLSL_MASK_VERTEX
                                                            : GN_GLSL_MASK_FRAGMENT,
                                   kind == GL_VERTEX_SHADER ? vertex_source : fragment_source};
@@ -41,7 +49,7 @@ int plain_host_open(plain_host *h, gn_gles *gles)
     memset(h, 0, sizeof *h);
     h->gles = gles;
     h->gl = gl;
-    for (int i = 0; i < 2 && ok; i++) {
+    for (int i = BARE; i <= DEPTH && ok; i++) {
         const GLuint vertex = compile(gl, GL_VERTEX_SHADER, i), fragment = compile(gl, GL_FRAGMENT_SHADER, i);
 
         h->programs[i].name = gl->glCreateProgram();
@@ -56,13 +64,14 @@ int plain_host_open(plain_host *h, gn_gles *gles)
         h->programs[i].color = gl->glGetUniformLocation(h->programs[i].name, "u_color");
         h->programs[i].channels = gl->glGetUniformLocation(h->programs[i].name, "u_channels");
         h->programs[i].mask = gl->glGetUniformLocation(h->programs[i].name, "gn_mask_texture");
+        h->programs[i].depth = gl->glGetUniformLocation(h->programs[i].name, "gn_mask_depth");
     }
     return ok;
 }
 
 void plain_host_close(plain_host *h)
 {
-    for (int i = 0; i < 2; i++)
+    for (int i = BARE; i <= DEPTH; i++)
         h->gl->glDeleteProgram(h->programs[i].name);
 }
 
@@ -88,10 +97,9 @@ static void draw_objects(plain_host *h, const gn_plan *plan, int program)
     }
 }
 
-static void draw(plain_host *h, const gn_plan *plan, uint32_t mask, uint32_t channel, float share)
+static void draw(plain_host *h, const gn_plan *plan, int program, uint32_t mask, uint32_t channel, float share)
 {
     const gn_gl *gl = h->gl;
-    const int program = mask != 0;
     const float color[4] = {share, share, share, share > 0.0f ? 0.0f : 1.0f};
     float channels[4] = {0, 0, 0, 0};
 
@@ -101,7 +109,12 @@ static void draw(plain_host *h, const gn_plan *plan, uint32_t mask, uint32_t cha
     gl->glUseProgram(h->programs[program].name);
     gl->glUniform4fv(h->programs[program].color, 1, color);
     gl->glUniform4fv(h->programs[program].channels, 1, channels);
-    if (mask) {
+    if (program == DEPTH) {
+        const float depth[2] = {(float)plan->mask_depth[0], (float)plan->mask_depth[1]};
+
+        gl->glUniform2fv(h->programs[program].depth, 1, depth);
+    }
+    if (program == MASKED) {
         gl->glActiveTexture(GL_TEXTURE1);
         gl->glBindTexture(GL_TEXTURE_2D, mask);
         gl->glUniform1i(h->programs[program].mask, 1);
@@ -116,11 +129,12 @@ int plain_host_draw(plain_host *h, const gn_plan *plan, float share)
     if (gn_gles_begin(h->gles, plan) != GN_OK)
         return 0;
     while (gn_gles_next(h->gles, &step)) {
+        const int is_masked = plan->mask == GN_MASK_TEXTURE && step.receivers && step.mask != GN_NO_MASK;
+
         if (step.draw == GN_DRAW_DEPTH || step.draw == GN_DRAW_AMBIENT)
-            draw(h, plan, 0, 0, 0.0f);
+            draw(h, plan, step.draw == GN_DRAW_DEPTH && plan->carries_depth ? DEPTH : BARE, 0, 0, 0.0f);
         for (uint32_t i = 0; i < step.light_count; i++)
-            draw(h, plan, plan->mask == GN_MASK_TEXTURE && step.receivers ? gn_gles_mask(h->gles, step.mask) : 0, i,
-                 share);
+            draw(h, plan, is_masked ? MASKED : BARE, is_masked ? gn_gles_mask(h->gles, step.mask) : 0, i, share);
     }
     return 1;
 }

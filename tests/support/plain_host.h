@@ -8,8 +8,8 @@ typedef struct plain_host {
     const gn_gl *gl;
     struct {
         GLuint name;
-        GLint clip, color, channels, mask;
-    } programs[2]; /* [1]: under a mask in a texture */
+        GLint clip, color, channels, mask, depth;
+    } programs[3]; /* bare; under a mask in a texture; the depth that masks carry */
 } plain_host;
 
 /* 1, or 0 when the GL refuses its shaders. */

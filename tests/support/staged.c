@@ -14,8 +14,7 @@ void staged_open(staged *t, const char *name, uint32_t width, uint32_t height)
     char path[128], message[SCENE_MESSAGE] = "";
 
     snprintf(path, sizeof path, "build/scenes/%s.gltf", name);
-    if (!scene_load(&t->loaded, path, NULL, message) ||
-        !scene_ensure_view(&t->loaded, (double)width / height, NULL) ||
+    if (!scene_load(&t->loaded, path, NULL, message) || !scene_ensure_view(&t->loaded, (double)width / height, NULL) ||
         stage_open(&t->stage, &t->loaded, &options, message) != 0)
         fail_msg("%s: %s", name, message);
     stage_pose(t->stage, 0, 0);

@@ -81,6 +81,7 @@ static const way ways[] = {
     {"ended", GN_METHOD_ZFAIL, BIT(GN_CAN_W0), 0, 0, 0, 0, 0},
     {"finite", GN_METHOD_ZFAIL, 0, 0, 1, 1, 0, 0},
     {"finite-end", GN_METHOD_ZFAIL, BIT(GN_CAN_DEPTH_CLAMP), 0, 1, 1, 0, 0},
+    {"refine", GN_METHOD_REFINE, 0, 0, 0, 0, 0, 0},
     {"count", GN_METHOD_COUNT, 0, 0, 0, 0, 0, 0},
     {"count-565", GN_METHOD_COUNT, BIT(GN_CAN_FBO_RGBA8), 0, 0, 0, 0, 0},
     {"count-two", GN_METHOD_COUNT, BIT(GN_CAN_FRONT_FACING), 0, 0, 0, 1, 0},
@@ -206,7 +207,7 @@ static int draw_masks(const job *j, scene *loaded, int d)
 
             if (j->extremes && ways[w].method != GN_METHOD_STENCIL && w > 0 && !j->ways)
                 continue;
-            if (j->ways ? !is_wanted(j->ways, ways[w].name) : ways[w].method >= GN_METHOD_COUNT)
+            if (j->ways ? !is_wanted(j->ways, ways[w].name) : ways[w].method >= GN_METHOD_REFINE)
                 continue;
             if (ways[w].finite && (loaded->camera.orthographic || loaded->camera.zfar > 0.0))
                 continue;
@@ -312,7 +313,7 @@ static int compare(const job *j, int d, int w, size_t light)
     size_t certain = 0, depth_limited = 0, wrong = 0, cracks = 0;
     int few, worse;
 
-    if (!(mask[0] & IS_DRAWN) && (j->extremes || j->is_poor || j->ways || ways[w].method >= GN_METHOD_COUNT))
+    if (!(mask[0] & IS_DRAWN) && (j->extremes || j->is_poor || j->ways || ways[w].method >= GN_METHOD_REFINE))
         return 0;
     if (!(mask[0] & IS_DRAWN)) {
         printf("%-18s %-9s %-10s %5lu  not drawn\n", j->name, drivers[d].name, ways[w].name, (unsigned long)light);
