@@ -51,6 +51,7 @@ void gn_shadow_cache_destroy(gn_shadow_cache *cache)
     if (!cache)
         return;
     gni_free(cache->context, cache->slots);
+    gni_free(cache->context, cache->masks.lights);
     gni_free(cache->context, cache->indices);
     gni_free(cache->context, cache);
 }

@@ -266,8 +266,9 @@ int gni_stencil_is_possible(const gn_scene *s, const char *name, gni_text *why)
 
 static int may_take_stencil_to_texture(const gn_scene *s, const gni_choice *choice)
 {
-    return choice->method == GN_METHOD_STENCIL && s->light_count > 1 && s->lights_per_pass != 1 &&
-           !(s->without & GN_MEASURE_MASKS) && can_have_stencil_image(s);
+    const int adds_several = s->light_count > 1 && s->lights_per_pass != 1 && !(s->without & GN_MEASURE_MASKS);
+
+    return choice->method == GN_METHOD_STENCIL && (adds_several || gni_keeps_masks(s)) && can_have_stencil_image(s);
 }
 
 /* Pixels that the lights reach, together; counts those that reach any. */
@@ -301,7 +302,7 @@ static int takes_stencil_to_texture(const gn_scene *s, const gni_choice *choice)
     uint32_t count = 0, group = s->lights_per_pass ? s->lights_per_pass : GN_MOST_MASKED;
     double areas, passes;
 
-    if (!may_take_stencil_to_texture(s, choice) || s->merges_lights)
+    if (!may_take_stencil_to_texture(s, choice) || s->merges_lights || gni_keeps_masks(s))
         return may_take_stencil_to_texture(s, choice);
     areas = find_areas(s, &count);
     passes = (count + group - 1) / group;
@@ -325,29 +326,33 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
 
     choice->dimmed = find_dimmed(s);
     choice->lights_per_mask = 1;
-    if (choice->is_refined) {
+    if (choice->is_refined)
         choose_refined(s, choice);
-        return;
-    }
-    if (choice->color.place == GN_PLACE_STENCIL && (is_small(s) || takes_stencil_to_texture(s, choice))) {
+    else if (choice->color.place == GN_PLACE_STENCIL && (is_small(s) || takes_stencil_to_texture(s, choice))) {
         choice->image.format = choice->mask_format =
             can(s, GN_CAN_FBO_RGBA4) && !gni_carries_depth(s) ? GN_FORMAT_RGBA4 : GN_FORMAT_RGBA8;
         choice->image.depth_bits = 24;
         choice->image.stencil_bits = 8;
-        if (!is_small(s))
+        if (gni_keeps_masks(s))
+            gni_put(&choice->text, "; masks are made in a texture, to be kept");
+        else if (!is_small(s))
             gni_put(&choice->text, "; masks are made in a texture, so that one pass adds several lights");
     } else if (choice->color.place == GN_PLACE_IMAGE) {
         choice->mask_format = gni_carries_depth(s) ? GN_FORMAT_RGBA8 : find_mask_format(s);
     } else if (choice->color.place == GN_PLACE_COLOR) {
         choice->mask_format = GN_FORMAT_RGB565;
     }
-    choice->mask = choice->mask_format != GN_FORMAT_NONE   ? GN_MASK_TEXTURE
+    choice->mask = choice->is_refined                      ? GN_MASK_STENCIL
+                   : choice->mask_format != GN_FORMAT_NONE ? GN_MASK_TEXTURE
                    : choice->color.place == GN_PLACE_ALPHA ? GN_MASK_ALPHA
                                                            : GN_MASK_STENCIL;
-    if (is_small(s))
+    if (is_small(s) && !choice->is_refined)
         gni_put(&choice->text, "; masks at scale 1/%lu, as asked for: not exact", (unsigned long)s->scale);
-    if (choice->mask != GN_MASK_TEXTURE)
+    if (choice->mask != GN_MASK_TEXTURE) {
+        if (gni_keeps_masks(s))
+            gni_put(&choice->text, "; masks are made in each frame, not being in textures");
         return;
+    }
     if (bits_of(choice->mask_format, 3) == 0)
         most = 3;
     if (gni_carries_depth(s)) /* in blue and alpha */

@@ -19,6 +19,7 @@ static const struct {
     [GN_SKIP_UNIMPORTANT] = {"unimportant", "it matters less than was asked for", ""},
     [GN_SKIP_LIGHT] = {"light", "", "the light is left out"},
     [GN_SKIP_ENDLESS] = {"endless", "", "its volume has no end: its shadow is missing"},
+    [GN_SKIP_KEPT] = {"kept", "", "its shadow is in a mask that is kept from an earlier frame"},
 };
 
 const char *gni_skip_name(gn_skip skip)
@@ -90,6 +91,8 @@ size_t gn_plan_explain_light(const gn_plan *plan, uint32_t light, char *text, si
     if (l->cut_casters)
         gni_put(&s, "; %lu casters cut into pieces: at their seams single pixels may be wrong",
                 (unsigned long)l->cut_casters);
+    if (plan->mask_age)
+        gni_put(&s, "; masks are kept that are %lu frames old", (unsigned long)plan->mask_age);
     if (l->caster_error > 0.0)
         gni_put(&s, "; proxies or welded edges: a shadow's edge may be off by up to %g where it starts",
                 l->caster_error);

@@ -285,7 +285,8 @@ typedef enum gn_skip {
     GN_SKIP_FAINT,       /* a light: it adds less than half a step anywhere */
     GN_SKIP_UNIMPORTANT, /* a light: it adds no more than gn_scene.least_light */
     GN_SKIP_LIGHT,       /* an object: its light is skipped */
-    GN_SKIP_ENDLESS      /* an object: its volume has no end under an orthographic camera: a warning */
+    GN_SKIP_ENDLESS,     /* an object: its volume has no end under an orthographic camera: a warning */
+    GN_SKIP_KEPT         /* an object: its shadow is in a mask that is kept from an earlier frame */
 } gn_skip;
 
 typedef struct gn_plan_light {
@@ -369,6 +370,8 @@ typedef struct gn_plan {
     uint32_t mask_count; /* textures */
     uint32_t scale;      /* pixels of the frame for one of a mask, in each direction */
     gn_upsample upsample;
+    /* Frames since the masks were made, if they are kept (gn_shadow_cache_desc.masks_every), and of which making they are */
+    uint32_t mask_age, mask_version;
     int sharpen;       /* as in the scene, where masks are smaller */
     int carries_depth; /* GN_DRAW_DEPTH writes gn_mask_depth_color(), which masks keep in blue and alpha */
     /* Of the host's passes: the target's size, or a little more, so that masks have whole pixels: matrices are made for it */

@@ -297,6 +297,9 @@ int gni_format_bytes(gn_format format); /* of a pixel */
 /* gn_color_layout.limit that a method would have. */
 uint32_t gni_color_limit(const gn_scene *s, gn_method method);
 
+/* kept_masks.c: whether masks are to be used for several frames. */
+int gni_keeps_masks(const gn_scene *s);
+
 /* What is meant where AUTO is asked for; AUTO when nothing is possible. */
 /* Whether masks carry depth. */
 int gni_carries_depth(const gn_scene *s);

@@ -103,6 +103,17 @@ typedef struct gni_slot {
     gni_stream streams[GNI_STREAM_KINDS];
 } gni_slot;
 
+/* kept_masks.c: the masks that were made last, and how many frames ago. */
+typedef struct gni_kept_masks {
+    uint32_t age, version; /* version 0: none was ever made */
+    gn_method method;
+    gn_format format;
+    gn_image image;
+    gn_upsample upsample;
+    uint32_t size[2], lights_per_mask, mask_count;
+    uint32_t light_count, capacity, (*lights)[2]; /* texture and channel of each */
+} gni_kept_masks;
+
 struct gn_shadow_cache {
     gn_context *context;
     uint32_t id;
@@ -112,6 +123,7 @@ struct gn_shadow_cache {
     uint16_t *indices;
     uint32_t capacity, used, wanted; /* of indices; wanted: from the next frame on */
     uint32_t version, base_version, dirty[2], built;
+    gni_kept_masks masks;
 };
 
 /* fronts.c: of an object, what is seen. */
@@ -191,6 +203,7 @@ typedef struct gni_draft {
     gni_bounds bounds;
     gni_view seen;                            /* through its scissor */
     int is_batched, uses_patches, is_colored; /* is_colored: its method counts in colour */
+    int reuses_masks, must_remake;            /* those of an earlier frame; but of some light they say nothing */
     int is_refining;                          /* small masks are made: steps are the target's */
     uint32_t first_of_batch;                  /* record */
     uint64_t casting_count, cheap_layers;
@@ -211,6 +224,13 @@ void gni_start_mask(gni_draft *d);
 /* plan_refine.c: the steps before lights, of small masks; after them all, the frame's. */
 void gni_start_refined(gni_draft *d);
 void gni_refine(gni_draft *d, uint32_t first_step);
+
+/* kept_masks.c: whether those of an earlier frame may serve in this one; then, where that is of the light at hand (0: nothing
+ * is known of it), and what the plan says of them. And what is made is noted. */
+int gni_may_reuse_masks(const gni_draft *d);
+int gni_take_kept_mask(gni_draft *d);
+void gni_reuse_masks(gni_draft *d);
+void gni_note_masks(gni_draft *d);
 
 /* traffic.c */
 void gni_estimate_traffic(gn_plan *plan);

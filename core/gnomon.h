@@ -177,11 +177,18 @@ typedef struct gn_shadow_cache gn_shadow_cache;
 typedef struct gn_shadow_cache_desc {
     uint32_t update_every;  /* frames [when something has changed] */
     double update_distance; /* [any] */
+    /* A choice of its own: masks in textures are made anew only in every so many frames, and used as they are in between,
+     * whatever has moved: gn_plan.mask_age. gn_scene.reads_masks must be set [1: in each] */
+    uint32_t masks_every;
 } gn_shadow_cache_desc;
 
 /* Returns GN_OK, GN_E_ARG, GN_E_MEMORY; *cache is NULL unless GN_OK. Without memory later the cache keeps less. */
 gn_result gn_shadow_cache_create(gn_context *context, const gn_shadow_cache_desc *desc, gn_shadow_cache **cache);
 void gn_shadow_cache_destroy(gn_shadow_cache *cache);
+
+/* The next plan makes its masks anew: what was drawn of them is gone, with a lost context or since another plan has made
+ * masks. gn_gles_begin() refuses a plan whose masks are gone. */
+void gn_shadow_cache_forget_masks(gn_shadow_cache *cache);
 
 /* ---- The scene of one frame ---- */
 

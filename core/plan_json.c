@@ -190,12 +190,13 @@ static void put_masks(gni_text *w, const gn_plan *plan)
 
     gni_put(w,
             " \"mask\": \"%s\", \"shade\": \"%s\", \"dimmed\": %g, \"mask_format\": \"%s\", \"mask_textures\": %lu, "
-            "\"scale\": %lu, \"upsample\": \"%s\", \"sharpen\": %s, \"mask_size\": [%lu, %lu],\n"
+            "\"mask_age\": %lu, \"scale\": %lu, \"upsample\": \"%s\", \"sharpen\": %s, \"mask_size\": [%lu, %lu],\n"
             " \"image\": {\"format\": \"%s\", \"depth_bits\": %d, \"stencil_bits\": %d},\n",
             masks[plan->mask], shades[plan->shade], plan->dimmed, formats[plan->mask_format],
-            (unsigned long)plan->mask_count, (unsigned long)plan->scale, upsamples[plan->upsample],
-            plan->sharpen ? "true" : "false", (unsigned long)plan->mask_size[0], (unsigned long)plan->mask_size[1],
-            formats[plan->image.format], plan->image.depth_bits, plan->image.stencil_bits);
+            (unsigned long)plan->mask_count, (unsigned long)plan->mask_age, (unsigned long)plan->scale,
+            upsamples[plan->upsample], plan->sharpen ? "true" : "false", (unsigned long)plan->mask_size[0],
+            (unsigned long)plan->mask_size[1], formats[plan->image.format], plan->image.depth_bits,
+            plan->image.stencil_bits);
 }
 
 size_t gn_plan_json(const gn_plan *plan, char *text, size_t capacity)

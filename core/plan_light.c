@@ -383,7 +383,9 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
     find_depth_bounds(d, about);
     gni_light_patches(d);
     d->draws[light] = (uint8_t)((any_receiver ? GNI_DRAWS_RECEIVERS : 0) | (any_other ? GNI_DRAWS_OTHERS : 0));
-    if (any_receiver)
+    if (any_receiver && !d->reuses_masks)
         result = add_mask(d);
+    else if (any_receiver)
+        d->must_remake |= !gni_take_kept_mask(d);
     return result;
 }

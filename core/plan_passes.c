@@ -202,9 +202,10 @@ void gni_add_own_passes(gni_draft *d, uint32_t light)
         gni_stain_stencil(d, light);
 }
 
-gn_result gni_add_passes(gni_draft *d)
+/* All lights, and what is before, between and behind them. */
+static gn_result add_lights(gni_draft *d)
 {
-    const int are_textures = d->plan->mask == GN_MASK_TEXTURE;
+    const int are_textures = d->plan->mask == GN_MASK_TEXTURE && !d->reuses_masks;
     const uint32_t first_step = d->plan->step_count;
     gn_result result = GN_OK;
 
@@ -219,17 +220,38 @@ gn_result gni_add_passes(gni_draft *d)
     for (uint32_t light = 0; light < d->scene->light_count && result == GN_OK; light++) {
         d->draws[light] = 0;
         result = gni_add_light(d, light);
-        if (!are_textures && !d->choice.is_refined)
+        if (d->plan->mask != GN_MASK_TEXTURE && !d->choice.is_refined)
             gni_add_own_passes(d, light);
     }
     if (result != GN_OK)
         return result;
     if (d->choice.is_refined)
         gni_refine(d, first_step);
-    if (are_textures) {
+    if (are_textures)
         end_masks(d, first_step);
+    if (d->plan->mask == GN_MASK_TEXTURE)
         add_light_passes(d);
+    return GN_OK;
+}
+
+gn_result gni_add_passes(gni_draft *d)
+{
+    gn_result result;
+
+    d->reuses_masks = gni_may_reuse_masks(d);
+    result = add_lights(d);
+    if (result == GN_OK && d->must_remake) {
+        memset(d->lights, 0, d->scene->light_count * sizeof *d->lights);
+        d->plan->step_count = 0;
+        d->reuses_masks = 0;
+        result = add_lights(d);
     }
+    if (result != GN_OK)
+        return result;
+    if (d->reuses_masks)
+        gni_reuse_masks(d);
+    else
+        gni_note_masks(d);
     redraw_others(d);
     add_draw(d, GN_DRAW_FINAL);
     if (d->plan->mask == GN_MASK_ALPHA)

@@ -85,6 +85,7 @@ struct gn_gles {
     GLuint quad, indices, cached; /* cached: of a shadow cache */
     uint32_t cache_id;            /* what is in it, of which version, and how large it is */
     uint32_t cache_version, cached_capacity;
+    uint32_t kept_masks[2];         /* of which cache and version the masks are; 0 where none are whole */
     gni_program colored, counted;   /* in one colour, and in none */
     gni_program sided;              /* discards one side of triangles, in no colour; its name is 0 until it is made */
     gni_program sided_color, faced; /* the same in one colour; a colour a side: as are they */

@@ -13,7 +13,7 @@ static const gni_state unmasked = {.color_mask = 15, .depth_write = GL_TRUE, .st
 static int has_depth(const gn_plan *plan)
 {
     return plan->mask == GN_MASK_TEXTURE && plan->image.format == GN_FORMAT_NONE && plan->mask_count > 0 &&
-           plan->scale == 1;
+           plan->scale == 1 && plan->mask_age == 0;
 }
 
 /* By the target's alpha, which stays; or becomes 0 where something is lit, so that nothing else is. */
@@ -105,6 +105,8 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
     result = gni_prepare_images(g, plan);
     if (result != GN_OK)
         return result;
+    if (plan->mask_count > 0 && plan->mask_age == 0)
+        g->kept_masks[1] = 0; /* until they are made */
     g->plan = plan;
     g->into = GN_INTO_TARGET;
     g->may_switch = may_switch;
@@ -249,6 +251,10 @@ int gn_gles_next(gn_gles *g, gn_step *out)
     if (g->plan->mask_count > 0) {
         g->gl.glActiveTexture(GL_TEXTURE0);
         g->gl.glBindTexture(GL_TEXTURE_2D, 0);
+    }
+    if (g->plan->mask_version && g->plan->mask_age == 0) {
+        g->kept_masks[0] = g->plan->cache_id;
+        g->kept_masks[1] = g->plan->mask_version;
     }
     g->plan = NULL;
     g->may_switch = 0;

@@ -40,6 +40,7 @@ const char help_render[] =
     "  --proxy TRIANGLES     what has more triangles casts by a mesh of about so many [each by itself]\n"
     "  --update-every N      finds a shadow anew in every N-th frame only [1]\n"
     "  --update-distance D   or when its light has moved by D as its caster sees it, in scene units [0]\n"
+    "  --masks-every N       makes masks in textures anew in every N-th frame only [1]\n"
     "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
     "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
     "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
@@ -56,7 +57,7 @@ typedef struct job {
     long scale;
     gn_upsample upsample;
     long size[2], frames, soft_count;
-    long update_every, proxy;
+    long update_every, masks_every, proxy;
     double weld_angle;
     double spin, exposure, importance, soft_radius, update_distance;
     int explain, one_sided, blend_once, sharpen;
@@ -228,6 +229,11 @@ static int measured_frame(stage *s, const job *j, size_t frame, measured *m, cha
     return status;
 }
 
+static int leaves_something(const job *j)
+{
+    return j->update_every > 1 || j->update_distance > 0.0 || j->masks_every > 1;
+}
+
 static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
 {
     const size_t frames = (size_t)j->frames;
@@ -246,8 +252,8 @@ static int draw_frames(stage *s, const job *j, measured *m, char message[SCENE_M
         int status;
 
         stage_pose(s, (double)i / 60.0, (double)i * j->spin);
-        /* frames whose picture nobody sees are drawn only to be measured */
-        if (!j->report && i + 1 < frames)
+        /* frames whose picture nobody sees are drawn only to be measured, or if what they leave is seen later */
+        if (!j->report && !leaves_something(j) && i + 1 < frames)
             continue;
         if (show_progress)
             fprintf(stderr, "\rframe %lu of %lu%s", (unsigned long)i + 1, (unsigned long)frames,
@@ -336,7 +342,7 @@ static int run(const job *j, const char *path)
                                    NULL,
                                    (uint32_t)j->soft_count,
                                    j->soft_radius,
-                                   {(uint32_t)j->update_every, j->update_distance},
+                                   {(uint32_t)j->update_every, j->update_distance, (uint32_t)j->masks_every},
                                    j->weld_angle * 0.017453292519943295,
                                    (uint32_t)j->proxy,
                                    j->bits};
@@ -460,7 +466,8 @@ int command_render(int count, char **arguments)
              .size = {800, 600},
              .frames = 1,
              .soft_count = 1,
-             .update_every = 1};
+             .update_every = 1,
+             .masks_every = 1};
     const option options[] = {
         {"-o", OPTION_TEXT, &j.frame, 0, 0},
         {"--size", OPTION_SIZE, j.size, 1, 16384},
@@ -482,6 +489,7 @@ int command_render(int count, char **arguments)
         {"--weld-angle", OPTION_NUMBER, &j.weld_angle, 0, 57},
         {"--proxy", OPTION_WHOLE, &j.proxy, 4, 100000000},
         {"--update-every", OPTION_WHOLE, &j.update_every, 1, 1000000},
+        {"--masks-every", OPTION_WHOLE, &j.masks_every, 1, 1000000},
         {"--update-distance", OPTION_NUMBER, &j.update_distance, 0, 1e12},
         {"--blend-once", OPTION_FLAG, &j.blend_once, 0, 0},
         {"--show", OPTION_TEXT, &j.show, 0, 0},

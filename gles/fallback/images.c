@@ -143,6 +143,7 @@ static gn_result make(gn_gles *g, const gn_plan *plan)
         return gn_fail(g->context, GN_E_MEMORY, "gn_gles_begin: no memory for the names of %lu masks",
                        (unsigned long)plan->mask_count);
     gni_delete_images(g);
+    g->kept_masks[1] = 0;
     m->image = plan->image;
     m->mask_format = plan->mask_format;
     m->width = plan->mask_size[0];
@@ -180,7 +181,15 @@ gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan)
         !gni_make_reader(g, &g->carry, "carry", defines, gni_shader_carry_frag) ||
         (plan->mask == GN_MASK_STENCIL && !gni_make_refining_programs(g, defines)))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses a shader of masks: see the log");
-    return are_there(&g->images, plan) ? GN_OK : make(g, plan);
+    if (plan->mask_age == 0)
+        return are_there(&g->images, plan) ? GN_OK : make(g, plan);
+    if (are_there(&g->images, plan) && g->kept_masks[0] == plan->cache_id && g->kept_masks[1] == plan->mask_version)
+        return GN_OK;
+    return gn_fail(
+        g->context, GN_E_ARG,
+        "gn_gles_begin: the masks of %lu frames ago are gone: that plan was not walked to its end, or another "
+        "made masks since",
+        (unsigned long)plan->mask_age);
 }
 
 static int is_of_target(gn_into into)

@@ -21,7 +21,8 @@ static void draw(const stage_wish *wish, int is_mask, uint8_t rgba[BYTES])
     char message[SCENE_MESSAGE] = "";
 
     if (stage_plan(drawn.stage, wish, message) != 0 ||
-        !(is_mask ? stage_draw_mask(drawn.stage, wish->first_light, message) : stage_draw_lit(drawn.stage, 0, message)) ||
+        !(is_mask ? stage_draw_mask(drawn.stage, wish->first_light, message)
+                  : stage_draw_lit(drawn.stage, 0, message)) ||
         !platform_read_back(drawn.stage->platform, rgba))
         fail_msg("method %d: %s", (int)wish->method, message);
     assert_int_equal(drawn.stage->gl->glGetError(), GL_NO_ERROR);
@@ -74,9 +75,9 @@ static int by_value(const void *a, const void *b)
  * the fragments of full volumes, in the median, at most 0.45 pass the stencil test. */
 static void little_is_wrong_and_little_is_counted(void **state)
 {
-    static const char *const scenes[] = {"colours",   "torus_knot", "cube_point",   "pile_of_8",        "pile_of_27",
-                                         "courtyard", "hall",       "primitives",   "open_container",   "room_eye_out",
-                                         "torches",   "ortho",      "transforms",   "camera_in_shadow", "moebius"};
+    static const char *const scenes[] = {"colours",   "torus_knot", "cube_point", "pile_of_8",        "pile_of_27",
+                                         "courtyard", "hall",       "primitives", "open_container",   "room_eye_out",
+                                         "torches",   "ortho",      "transforms", "camera_in_shadow", "moebius"};
     double ratios[MOST];
     size_t wrong[2] = {0, 0};
     int masks = 0;
@@ -219,8 +220,9 @@ static void what_it_lacks_is_named(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(little_is_wrong_and_little_is_counted), cmocka_unit_test(nothing_thin_is_lost), cmocka_unit_test(nothing_thin_is_darkened),
-        cmocka_unit_test(it_goes_with_the_rest), cmocka_unit_test(what_it_lacks_is_named)};
+        cmocka_unit_test(little_is_wrong_and_little_is_counted), cmocka_unit_test(nothing_thin_is_lost),
+        cmocka_unit_test(nothing_thin_is_darkened), cmocka_unit_test(it_goes_with_the_rest),
+        cmocka_unit_test(what_it_lacks_is_named)};
 
     return cmocka_run_group_tests_name("refine", tests, NULL, NULL);
 }
