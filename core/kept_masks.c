@@ -24,9 +24,9 @@ int gni_may_reuse_masks(const gni_draft *d)
         return 0;
     k = &d->scene->cache->masks;
     return k->version != 0 && k->age + 1 < d->scene->cache->desc.masks_every && k->light_count == plan->light_count &&
-           k->format == plan->mask_format && k->upsample == plan->upsample &&
-           k->method == d->choice.method && memcmp(k->size, plan->mask_size, sizeof k->size) == 0 &&
-           k->lights_per_mask == d->choice.lights_per_mask && memcmp(&k->image, &plan->image, sizeof k->image) == 0;
+           k->format == plan->mask_format && k->upsample == plan->upsample && k->method == d->choice.method &&
+           memcmp(k->size, plan->mask_size, sizeof k->size) == 0 && k->lights_per_mask == d->choice.lights_per_mask &&
+           memcmp(&k->image, &plan->image, sizeof k->image) == 0;
 }
 
 int gni_take_kept_mask(gni_draft *d)

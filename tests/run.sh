@@ -30,6 +30,12 @@ for program in "$@"; do
     *) "$program" > "$build/one.log" 2>&1 ;;
     esac
     count "${program#"$build"/}" $? "$build/one.log"
+    case $program in
+    */test_small | */test_upsample | */test_kept)
+        GALLIUM_DRIVER=softpipe without_leaks "$program" > "$build/one.log" 2>&1
+        count "${program#"$build"/}, softpipe" $? "$build/one.log"
+        ;;
+    esac
 done
 without_leaks sh tests/tools/command.sh "$build" > "$build/one.log" 2>&1
 count tests/tools/command.sh $? "$build/one.log"

@@ -219,11 +219,10 @@ static void without_textures_they_are_made_each_time(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(masks_stay_until_they_are_due),
-                                       cmocka_unit_test(old_masks_are_in_their_places),
-                                       cmocka_unit_test(they_are_made_anew_where_they_cannot_serve),
-                                       cmocka_unit_test(what_is_gone_is_refused),
-                                       cmocka_unit_test(without_textures_they_are_made_each_time)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(masks_stay_until_they_are_due), cmocka_unit_test(old_masks_are_in_their_places),
+        cmocka_unit_test(they_are_made_anew_where_they_cannot_serve), cmocka_unit_test(what_is_gone_is_refused),
+        cmocka_unit_test(without_textures_they_are_made_each_time)};
 
     return cmocka_run_group_tests_name("kept", tests, NULL, NULL);
 }
