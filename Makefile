@@ -76,7 +76,7 @@ bench: $(BENCHES) $(SCENES) ## what things cost: counts, and times as remarks; i
 	@$(B)/tests/bench/bench_stencil > build/stencil.csv && mv build/stencil.csv tests/bench/stencil.csv
 	@grep '^#' tests/bench/stencil.csv
 	@$(B)/tests/bench/bench_methods > build/methods.csv && mv build/methods.csv tests/bench/methods.csv
-	@$(B)/tests/bench/bench_ranges && $(B)/tests/bench/bench_small && $(B)/tests/bench/bench_roettger
+	@$(B)/tests/bench/bench_ranges && $(B)/tests/bench/bench_small && $(B)/tests/bench/bench_roettger && $(B)/tests/bench/bench_refine
 	@sh tests/bench/rebuild.sh $(B) "$(CC)" > build/rebuild.csv && mv build/rebuild.csv tests/bench/rebuild.csv
 	@$(B)/tests/bench/bench_frames > build/frames.csv && mv build/frames.csv tests/bench/frames.csv
 

@@ -350,7 +350,7 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
         gni_put(&choice->text, "; masks at scale 1/%lu, as asked for: not exact", (unsigned long)s->scale);
     if (choice->mask != GN_MASK_TEXTURE) {
         if (gni_keeps_masks(s))
-            gni_put(&choice->text, "; masks are made in each frame, not being in textures");
+            gni_put(&choice->text, "; masks are made in each frame, being no textures that the host reads");
         return;
     }
     if (bits_of(choice->mask_format, 3) == 0)

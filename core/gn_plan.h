@@ -157,10 +157,10 @@ typedef struct gn_scene {
     /* 1: lights under stencils are added in passes of several too, by masks in textures, where the target can. 0: where
      * the plan finds that cheaper */
     int merges_lights;
-    /* A choice: masks have one pixel for 2 x 2 or 4 x 4 of the frame's, in a texture: 1, 2 or 4 [1; GN_METHOD_REFINE: 2] */
+    /* A choice: masks have one pixel for 2 x 2 or 4 x 4 of the frame's, in a texture: 1, 2 or 4 [1; GN_METHOD_REFINE takes 0 and 1 for 2] */
     uint32_t scale;
     gn_upsample upsample;
-    int sharpen; /* 1: not NEAREST; what is between 0 and 1 then is narrowed to a pixel of the frame (GN_SHARPENED) */
+    int sharpen; /* 1: not NEAREST, nor of frames that are dimmed; what is between 0 and 1 then is narrowed to a pixel of the frame (GN_SHARPENED) */
     gn_shade shade;
     double dimmed; /* GN_SHADE_ATTENUATE: what a shadow leaves of the light, more than 0, less than 1 [0.5] */
     int discards;  /* 1: the host reads neither depth nor stencil of the target after the frame: they may be dropped */
@@ -182,7 +182,7 @@ typedef struct gn_record {
     uint32_t light_cap_count, side_count, dark_cap_count, near_cap_count, turned_cap_count; /* indices */
     int fan;          /* the dark cap is spanned over the silhouette */
     uint32_t patch;   /* not 0: a projection onto this patch, its dark cap alone, counted where the patch is seen */
-    int unpatched;    /* counted only where no patch is seen */
+    int unpatched;    /* counted only where no patch is seen, or what is contested */
     int slivers;      /* of the light cap only triangles that are seen nearly edge-on */
     int mcguire_case; /* 1: by z-pass; 2, 3: by z-fail; 0: on a patch */
     int mirrored;     /* the model matrix swaps front and back */
@@ -209,7 +209,8 @@ typedef enum gn_step_kind {
     GN_STEP_REFINE,
     GN_STEP_DARKEN,      /* all of `patch` that is in the light's scissor is shadow: its seen side looks away */
     GN_STEP_CLEAR_IMAGE, /* the image: its count to `start`, depth and stencil unless it borrows the target's depth */
-    GN_STEP_CLEAR_MASK,  /* all of a mask texture is lit */
+    /* All of a mask texture is lit; of those that are refined, blue is 1 where no edge of depth is */
+    GN_STEP_CLEAR_MASK,
     GN_STEP_CLEAR_COLOR, /* the target's colour alone */
     GN_STEP_RESOLVE,     /* the light's channel of its mask texture becomes 0 where the image's count says shadow */
     GN_STEP_NORMALISE, /* levels in the target become full where lit and 0 in shadow, or the shade (by_maximum), by quads */

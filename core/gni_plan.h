@@ -111,6 +111,7 @@ typedef struct gni_kept_masks {
     gn_image image;
     gn_upsample upsample;
     uint32_t size[2], lights_per_mask, mask_count;
+    double depth[2];                              /* gn_plan.mask_depth of what they carry */
     uint32_t light_count, capacity, (*lights)[2]; /* texture and channel of each */
 } gni_kept_masks;
 

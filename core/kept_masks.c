@@ -55,6 +55,7 @@ void gni_reuse_masks(gni_draft *d)
     d->plan->mask_age = ++k->age;
     d->plan->mask_version = k->version;
     d->plan->mask_count = k->mask_count;
+    memcpy(d->plan->mask_depth, k->depth, sizeof k->depth);
 }
 
 void gn_shadow_cache_forget_masks(gn_shadow_cache *cache)
@@ -98,6 +99,7 @@ void gni_note_masks(gni_draft *d)
     k->light_count = plan->light_count;
     k->mask_count = plan->mask_count;
     memcpy(k->size, plan->mask_size, sizeof k->size);
+    memcpy(k->depth, plan->mask_depth, sizeof k->depth);
     for (uint32_t i = 0; i < plan->light_count; i++) {
         const gn_plan_light *l = &plan->lights[i];
         const int is_known = l->skip == GN_SKIP_NOT && d->draws[i] & GNI_DRAWS_RECEIVERS;

@@ -128,11 +128,13 @@ static void find_box(const gn_mesh *mesh, gni_part *part)
     memcpy(part->box_max, high, sizeof high);
 }
 
+#define PI     3.14159265358979323846
 #define FILLED 0.25 /* of its box: by what has as much its box is known to be */
 
 /* What is seen of it wherever it goes, but edge-on: the second of its box's sides; of a closed part that leaves most of its
- * box empty four times its volume over its surface, which of a bar is its width. volume: six times so much; normals: of
- * its triangles, each twice as long as that is large, together. */
+ * box empty four times its volume over its surface, which of a bar is its width; of one that is open its surface over pi
+ * times its box's diagonal, as of a tube. volume: six times so much; normals: of its triangles, each twice as long as that
+ * is large, together. */
 static double thickness_of(const gni_part *part, double volume, double normals)
 {
     double side[3], least, most, second;
@@ -142,7 +144,9 @@ static double thickness_of(const gni_part *part, double volume, double normals)
     least = fmin(side[0], fmin(side[1], side[2]));
     most = fmax(side[0], fmax(side[1], side[2]));
     second = side[0] + side[1] + side[2] - least - most;
-    if (!part->is_closed || normals == 0.0 || fabs(volume) > 6.0 * FILLED * side[0] * side[1] * side[2])
+    if (!part->is_closed)
+        return fmin(second, 0.5 * normals / (PI * sqrt(gni_dot(side, side))));
+    if (normals == 0.0 || fabs(volume) > 6.0 * FILLED * side[0] * side[1] * side[2])
         return second;
     return fmin(second, 4.0 / 3.0 * fabs(volume) / normals);
 }

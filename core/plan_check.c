@@ -94,6 +94,12 @@ gn_result gni_check_scene(gn_context *context, const gn_scene *s)
         return gn_fail(context, GN_E_ARG, "plan: masks at scale 1, 2 or 4 (%lu)", (unsigned long)s->scale);
     if ((unsigned)s->upsample > GN_UPSAMPLE_DEPTH)
         return gn_fail(context, GN_E_ARG, "plan: no upsampling has number %d", (int)s->upsample);
+    if (s->scale > 1 && s->shade != GN_SHADE_ADDITIVE && (s->sharpen || s->upsample == GN_UPSAMPLE_DEPTH) &&
+        s->method != GN_METHOD_REFINE)
+        return gn_fail(
+            context, GN_E_ARG,
+            "plan: a frame that is dimmed (shade %d) takes small masks by nearest or bilinear, not sharpened",
+            (int)s->shade);
     if (s->sharpen && s->upsample == GN_UPSAMPLE_NEAREST && s->scale > 1)
         return gn_fail(context, GN_E_ARG, "plan: masks upsampled by nearest are 0 or 1: nothing is sharpened");
     if (s->lights_per_pass > GN_MOST_MASKED)

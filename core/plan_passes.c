@@ -133,6 +133,7 @@ static void end_masks(gni_draft *d, uint32_t first_step)
 
         d->plan->step_count = first_step;
         d->plan->image = none;
+        d->plan->carries_depth = 0;
         add(d, GN_STEP_CLEAR);
         gni_add_surfaces(d);
         return;

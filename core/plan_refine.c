@@ -56,6 +56,8 @@ void gni_refine(gni_draft *d, uint32_t first_step)
             gni_stain_stencil(d, light);
         } else {
             gni_clean_stencil(d, light);
+            if (d->scene->blend_once)
+                gni_stain_stencil(d, light);
         }
         gni_add_own_passes(d, light);
     }

@@ -9,7 +9,8 @@
 
 #define LEAST 3.0 /* pixels of a mask */
 
-/* The least width of eight points of a box on a plane: across one of its edges, as of any hull of them. */
+/* The least width of eight points of a box on a plane: across one of the three edges from its first corner, whose images
+ * the others are nearly parallel to unless the box is close. */
 static double width_of(double points[8][2])
 {
     double least = INFINITY;
@@ -32,12 +33,18 @@ static double width_of(double points[8][2])
     return least < INFINITY ? least : 0.0;
 }
 
-static double pixels_of_one(const gni_draft *d, double distance)
+/* Pixels that a length has at a distance from the eye. */
+static double in_pixels(const gni_draft *d, double length, double distance)
 {
     const gn_camera *c = &d->scene->camera;
     const double across = d->whole[2] / (c->right - c->left), up = d->whole[3] / (c->top - c->bottom);
 
-    return fmin(across, up) / (c->orthographic ? 1.0 : distance);
+    return length * fmin(across, up) / (c->orthographic ? 1.0 : fmax(distance, c->znear));
+}
+
+static int is_thin(const gni_draft *d, double length, double distance)
+{
+    return in_pixels(d, length, distance) < LEAST * d->plan->scale;
 }
 
 /* The least that a matrix does to a length, or less: its volume over the most that it does to areas. */
@@ -55,30 +62,35 @@ static double thickness_of(const gni_draft *d, uint32_t object)
     return o->mesh->thickness * least_stretch(o->model);
 }
 
-static double limit(const gni_draft *d)
+static double farthest_of(const gni_draft *d, uint32_t object)
 {
-    return LEAST * d->plan->scale;
+    double farthest = 0.0;
+
+    for (int i = 0; i < 8; i++)
+        farthest = fmax(farthest, -d->boxes[object].points[i][2]);
+    return farthest;
 }
 
 int gni_is_thin_image(const gni_draft *d, uint32_t object)
 {
     const gn_camera *c = &d->scene->camera;
     const gni_hull *box = &d->boxes[object];
-    double points[8][2], farthest = 0.0;
+    double points[8][2];
 
+    if (is_thin(d, thickness_of(d, object), farthest_of(d, object)))
+        return 1;
     for (int i = 0; i < 8; i++) {
-        const double *p = box->points[i], distance = -p[2];
+        const double *p = box->points[i], distance = c->orthographic ? 1.0 : -p[2];
 
         if (!c->orthographic && !(distance >= c->znear))
-            return 0; /* as large as the frame */
-        farthest = fmax(farthest, distance);
-        points[i][0] = p[0] * d->whole[2] / (c->right - c->left) / (c->orthographic ? 1.0 : distance);
-        points[i][1] = p[1] * d->whole[3] / (c->top - c->bottom) / (c->orthographic ? 1.0 : distance);
+            return 0; /* it is across the frame */
+        points[i][0] = p[0] * d->whole[2] / (c->right - c->left) / distance;
+        points[i][1] = p[1] * d->whole[3] / (c->top - c->bottom) / distance;
     }
-    return fmin(thickness_of(d, object) * pixels_of_one(d, farthest), width_of(points)) < limit(d);
+    return width_of(points) < LEAST * d->plan->scale;
 }
 
-/* How wide the light sees it, at the distance of its middle. */
+/* How wide the light sees its box, at the distance of its middle. */
 static double width_for_light(const gni_draft *d, uint32_t object, const double axis[3], double distance)
 {
     const double *light = d->bounds.light;
@@ -100,27 +112,27 @@ static double width_for_light(const gni_draft *d, uint32_t object, const double 
     return width_of(points);
 }
 
+/* Shadows are as wide as the caster where they start, and wider the farther from a point light; seen from the eye they are
+ * thinnest there or where they end. */
 int gni_is_thin_shadow(const gni_draft *d, uint32_t object, const gni_extent *extent)
 {
     const double *light = d->bounds.light, *ball = d->balls[object], *normal = extent->end_plane;
-    double axis[3], length, distance, width, grown, end;
+    double axis[3], length, distance, width = thickness_of(d, object), behind, end;
 
     for (int k = 0; k < 3; k++)
         axis[k] = light[3] == 0.0 ? -light[k] : ball[k] - light[k];
     length = sqrt(gni_dot(axis, axis));
-    if (length == 0.0)
-        return 0;
     distance = light[3] == 0.0 ? 1.0 : length;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3 && length > 0.0; k++)
         axis[k] /= length;
-    width = fmin(width_for_light(d, object, axis, distance), thickness_of(d, object));
-    if (width * pixels_of_one(d, fmax(-ball[2], d->scene->camera.znear)) < limit(d))
+    if (length > 0.0)
+        width = fmin(width, width_for_light(d, object, axis, distance));
+    if (is_thin(d, width, farthest_of(d, object)))
         return 1;
-    if (!extent->is_ended)
-        return 0;
-    /* where the ray through its middle meets the end: so many times as wide, and so far from the eye */
-    grown = (gni_dot(normal, ball) + normal[3]) / -gni_dot(normal, axis);
-    end = -(ball[2] + grown * axis[2]);
-    grown = light[3] == 0.0 ? 1.0 : (distance + grown) / distance;
-    return grown >= 1.0 && end > d->scene->camera.znear && width * grown * pixels_of_one(d, end) < limit(d);
+    if (!extent->is_ended || length == 0.0) /* as far as what it may fall on, and no wider for all that is known */
+        return is_thin(d, width, extent->touched ? extent->deepest : d->plan->deepest_receiver);
+    /* where the ray through its middle meets the end */
+    behind = (gni_dot(normal, ball) + normal[3]) / -gni_dot(normal, axis);
+    end = -(ball[2] + behind * axis[2]);
+    return behind > 0.0 && is_thin(d, width * (light[3] == 0.0 ? 1.0 : (distance + behind) / distance), end);
 }

@@ -23,7 +23,8 @@
  * bilinear where they lie in its plane: depth is linear on the image of a plane, so interpolated it is then the
  * receiver's, however it slopes. Half floats cannot tell where between four texels they are (DESIGN.md, decision 12):
  * there, and where edges are sharpened, four places about the pixel are read straight from varyings, turned so that the
- * mask nearest to it is read twice. */
+ * mask nearest to it is read twice. That takes four varying vectors of the host's, and a float; the other ways one and a
+ * float. */
 #ifndef GN_GLSL_H
 #define GN_GLSL_H
 
@@ -43,10 +44,15 @@
     "#define GN_ALIKE vec2(0.004, 0.0002)\n"                                                                           \
     "#define GN_HALF_FLOATS\n"                                                                                         \
     "#endif\n"                                                                                                         \
+    "#ifdef GN_MASKED\n"                                                                                               \
     "#if defined(GN_UPSAMPLED) && (defined(GN_SHARPENED) || defined(GN_HALF_FLOATS))\n"                                \
-    "#define GN_MASK_TAPS vec4(0.5, 0.17, -0.17, 0.5)\n"                                                               \
+    "#define GN_MASK_TAPS vec4(0.5, 0.1, -0.1, 0.5)\n"                                                                 \
     "#elif defined(GN_SHARPENED)\n"                                                                                    \
     "#define GN_MASK_TAPS vec4(0.4, 0.4, -0.4, 0.4)\n"                                                                 \
+    "#endif\n"                                                                                                         \
+    "#endif\n"                                                                                                         \
+    "#if defined(GN_DEPTH_COLOR) || (defined(GN_MASKED) && !defined(GN_MASK_TAPS))\n"                                  \
+    "#define GN_MASK_PLACE\n"                                                                                          \
     "#endif\n"                                                                                                         \
     "#if defined(GN_UPSAMPLED) || defined(GN_DEPTH_COLOR)\n"                                                           \
     "#define GN_MASK_DEPTH\n"                                                                                          \
@@ -54,7 +60,7 @@
 
 #define GN_GLSL_MASK_VERTEX                                                                                            \
     GN_GLSL_MASK_WAYS                                                                                                  \
-    "#if defined(GN_MASKED) || defined(GN_DEPTH_COLOR)\n"                                                              \
+    "#ifdef GN_MASK_PLACE\n"                                                                                           \
     "varying highp vec3 gn_mask_at;\n"                                                                                 \
     "#endif\n"                                                                                                         \
     "#ifdef GN_MASK_DEPTH\n"                                                                                           \
@@ -69,6 +75,8 @@
     "{\n"                                                                                                              \
     "#if defined(GN_MASKED) || defined(GN_DEPTH_COLOR)\n"                                                              \
     "    highp vec3 gn_at = vec3(0.5 * (gn_clip.xy + gn_clip.ww), gn_clip.w);\n"                                       \
+    "#endif\n"                                                                                                         \
+    "#ifdef GN_MASK_PLACE\n"                                                                                           \
     "    gn_mask_at = gn_at;\n"                                                                                        \
     "#endif\n"                                                                                                         \
     "#ifdef GN_MASK_DEPTH\n"                                                                                           \
@@ -87,7 +95,7 @@
 
 #define GN_GLSL_MASK_FRAGMENT                                                                                          \
     GN_GLSL_MASK_WAYS                                                                                                  \
-    "#if defined(GN_MASKED) || defined(GN_DEPTH_COLOR)\n"                                                              \
+    "#ifdef GN_MASK_PLACE\n"                                                                                           \
     "varying GN_PLACE vec3 gn_mask_at;\n"                                                                              \
     "#endif\n"                                                                                                         \
     "#ifdef GN_MASK_DEPTH\n"                                                                                           \
@@ -118,7 +126,11 @@
     "}\n"                                                                                                              \
     "mediump vec4 gn_mask_read()\n"                                                                                    \
     "{\n"                                                                                                              \
+    "#ifdef GN_MASK_TAPS\n"                                                                                            \
+    "    GN_PLACE float gn_own = min(gn_mask_over_w / gn_mask_a.z, 1.0);\n"                                            \
+    "#else\n"                                                                                                          \
     "    GN_PLACE float gn_own = min(gn_mask_over_w / gn_mask_at.z, 1.0);\n"                                           \
+    "#endif\n"                                                                                                         \
     "    GN_PLACE float gn_alike = GN_ALIKE.x * gn_own + GN_ALIKE.y;\n"                                                \
     "#ifdef GN_MASK_TAPS\n"                                                                                            \
     "    GN_PLACE vec3 gn_a = gn_mask_texel(texture2DProj(gn_mask_texture, gn_mask_a));\n"                             \

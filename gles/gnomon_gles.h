@@ -22,7 +22,7 @@
  *
  *     on entry   the framebuffer that the plan's target describes is bound, to draw and to read; no GL error is
  *                pending; the depth range is 0 to 1, and depth clamp, sample coverage and sample alpha to coverage are
- *                off, as in a new context; for plans with masks in textures no sampler object on unit 0 and no buffer
+ *                off, as in a new context; for plans with masks in textures, or refined, no sampler object on unit 0 and no buffer
  *                to unpack pixels from (OpenGL ES 3). Any other state
  *     clear      before the first step but DEPTH colour (to the host's clear colour), depth and, if the plan counts there,
  *                stencil are cleared, unmasked
@@ -39,12 +39,12 @@
  *     FINAL      depth test LESS, depth not written; blending SRC_ALPHA, ONE_MINUS_SRC_ALPHA; stencil test off
  *     in each    viewport 0, 0 and gn_plan.viewport, the target's size where masks are not smaller (in a DEPTH that is not
  *                into the target gn_plan.mask_size); colour written (but where said); the target's framebuffer
- *                bound (but where said); where counts are made in colour dither on; culling, polygon offset and depth clamp
+ *                bound (but where said); where counts are made in colour, or refined, dither on; culling, polygon offset and depth clamp
  *                off, and so are scissor test and depth bounds test but in LIGHT; front face CCW; blend equation ADD;
  *                no program in use; no buffer bound; all vertex attribute arrays disabled
  *     on exit    after gn_gles_next() has returned 0: all of these, cull face, polygon offset, depth clamp, depth
  *                bounds, clear depth and clear stencil are as in a new context, but the viewport and the scissor's box,
- *                which are the target's; the target's framebuffer is bound. Of plans that count in colour dither is on
+ *                which are the target's; the target's framebuffer is bound. Of plans that count in colour, or refine, dither is on
  *                and the target's alpha 1 if the count was there; with masks in textures, or refined, TEXTURE0 is active,
  *                without a 2D texture, from the first step after them on; where gn_gles_begin() made images no renderbuffer is
  *                bound. Nothing else was ever touched: other textures, clear colour, pixel store, attribute pointers
@@ -116,16 +116,17 @@ void gn_gles_unload(gn_gles *gl, const gn_mesh *mesh); /* does nothing for one t
 
 /* Starts a frame: checks that every caster of the plan is uploaded (and what is on a patch, or thin) and sends the plan's indices. The first plan that
  * counts one side at a time, or in colour, also has shaders compiled, and one with masks in textures has images made, of
- * the target's size: kept until a plan needs others. The plan must stay until the walk has ended. Returns GN_OK; GN_E_ARG;
+ * the target's size: kept until a plan needs others. The plan must stay until the walk has ended. Returns GN_OK; GN_E_ARG, also for a plan
+ * with masks of an earlier frame that are gone;
  * GN_E_MEMORY; GN_E_DEVICE when a shader or a framebuffer is refused. */
 gn_result gn_gles_begin(gn_gles *gl, const gn_plan *plan);
 
 /* Does what the plan says up to the next step that is the host's. Returns 1 with that step, or 0 at the frame's end. */
 int gn_gles_next(gn_gles *gl, gn_step *step);
 
-/* The GL's name of a mask texture of the plan last begun (gn_step.mask), of the target's size, to be bound for a light's
- * pass; 0 for what is none. Channel i is 1 where gn_step.lights[i] reaches, else 0. Its filter is NEAREST, and it lives
- * until the next gn_gles_begin(). */
+/* The GL's name of a mask texture of the plan last begun (gn_step.mask), of gn_plan.mask_size, to be bound for a light's
+ * pass; 0 for what is none. Channel i is 1 where gn_step.lights[i] reaches, else 0. Its filter is LINEAR with
+ * GN_UPSAMPLE_BILINEAR at scale 2 or 4, else NEAREST; it lives until gn_gles_begin() has a plan that needs others. */
 uint32_t gn_gles_mask(const gn_gles *gl, uint32_t mask);
 
 /* Draws the volumes of some records of the plan last begun in one colour, each in its scissor, to look at or to

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "options.h"
+#include "picture.h"
 #include "report.h"
 #include "stage.h"
 
@@ -64,62 +65,39 @@ typedef struct job {
     gn_method method;
 } job;
 
-static double now_ms(void)
-{
-    static const double per_ms = 1000.0;
-    const gn_port port = gn_port_libc();
-
-    return (double)port.now_us(NULL) / per_ms;
-}
-
-/* A linear value of 0 to 255 as sRGB. */
-static void make_srgb_table(uint8_t table[256])
-{
-    for (int i = 0; i < 256; i++) {
-        const double x = i / 255.0, y = x <= 0.0031308 ? 12.92 * x : 1.055 * pow(x, 1.0 / 2.4) - 0.055;
-
-        table[i] = (uint8_t)lrint(255.0 * y);
-    }
-}
-
 static int write_frame(stage *s, const char *path)
 {
-    const size_t pixels = (size_t)s->target.width * s->target.height;
-    uint8_t *rgba = malloc(4 * pixels), table[256];
-    int ok = rgba && platform_read_back(s->platform, rgba);
+    uint8_t *rgb = malloc((size_t)3 * s->target.width * s->target.height);
+    int ok = rgb && read_picture(s, rgb);
 
     if (!ok)
         say("%s: the frame cannot be read back", path);
-    make_srgb_table(table);
-    for (size_t i = 0; ok && i < pixels; i++)
-        for (size_t c = 0; c < 3; c++)
-            rgba[3 * i + c] = table[rgba[4 * i + c]];
-    ok = ok && write_png(path, rgba, s->target.width, s->target.height, 3);
-    free(rgba);
+    ok = ok && write_png(path, rgb, s->target.width, s->target.height, 3);
+    free(rgb);
     return ok;
 }
 
 static int write_mask(stage *s, const char *dir, uint32_t light)
 {
     const size_t pixels = (size_t)s->target.width * s->target.height, length = strlen(dir) + 40;
-    uint8_t *rgba = malloc(4 * pixels);
+    uint8_t *lit = malloc(pixels), *visible = malloc(pixels), *both = malloc(2 * pixels);
     char *path = malloc(length);
-    int ok = rgba && path && platform_read_back(s->platform, rgba);
+    int ok = lit && visible && both && path && read_mask(s, lit, visible);
 
     if (!ok)
         say("%s: the mask of light %u cannot be read back", dir, (unsigned)light);
     for (size_t i = 0; ok && i < pixels; i++) {
-        const uint8_t lit = rgba[4 * i] > 127 ? 255 : 0, visible = rgba[4 * i + 1] > 127 ? 255 : 0;
-
-        rgba[2 * i] = lit;
-        rgba[2 * i + 1] = visible;
+        both[2 * i] = lit[i];
+        both[2 * i + 1] = visible[i];
     }
     if (ok) {
         snprintf(path, length, "%s/light%u.png", dir, (unsigned)light);
-        ok = write_png(path, rgba, s->target.width, s->target.height, 2);
+        ok = write_png(path, both, s->target.width, s->target.height, 2);
     }
     free(path);
-    free(rgba);
+    free(lit);
+    free(visible);
+    free(both);
     return ok;
 }
 

@@ -113,7 +113,8 @@ static int are_there(const gni_images *m, const gn_plan *plan)
 {
     return m->width == plan->mask_size[0] && m->height == plan->mask_size[1] && m->upsample == plan->upsample &&
            m->carries_depth == plan->carries_depth && memcmp(&m->image, &plan->image, sizeof m->image) == 0 &&
-           m->mask_format == plan->mask_format && m->mask_count >= plan->mask_count && m->borrowed == borrowed_by(plan);
+           m->mask_format == plan->mask_format && m->mask_count >= plan->mask_count &&
+           (plan->mask_age > 0 || m->borrowed == borrowed_by(plan));
 }
 
 static gn_result check(gn_gles *g, const char *what)

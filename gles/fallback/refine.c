@@ -58,15 +58,19 @@ static void take_word(gn_gles *g, const gn_step *step, int lit)
 }
 
 /* What is seen of thin things: by the one statement of positions their depths are the same. */
-static void contest_objects(gn_gles *g, GLint reference)
+static void contest_objects(gn_gles *g, uint32_t light, GLint reference)
 {
+    static const gni_face seen = {0, GL_REPLACE};
     const gn_plan *plan = g->plan;
+    const gn_plan_caster *in_light = plan->casters + (size_t)light * plan->object_count;
     gni_state state = writes(reference);
 
     state.depth_func = GL_EQUAL;
+    state.front = state.back = seen;
+    gni_bound(&state, plan, &plan->lights[light], plan->lights[light].scissor);
     gni_set_state(g, &state);
     for (uint32_t i = 0; i < plan->object_count; i++)
-        if (plan->objects[i].thin)
+        if (plan->objects[i].thin && in_light[i].is_lit)
             gni_draw_surface(g, &plan->objects[i]);
 }
 
@@ -95,7 +99,7 @@ void gni_refine_step(gn_gles *g, const gn_step *step)
     for (int lit = 0; lit < 2; lit++)
         take_word(g, step, lit);
     gni_begin_volumes(g, &g->counted);
-    contest_objects(g, reference);
+    contest_objects(g, step->light, reference);
     for (uint32_t i = 0; i < plan->record_count; i++)
         if (plan->records[i].light == step->light && plan->records[i].thin)
             contest_record(g, &plan->records[i], reference);

@@ -22,5 +22,5 @@ void main()
 
     PLACE float bend = max(abs(across - 2.0 * at), abs(along - 2.0 * at));
 
-    gl_FragColor = vec4(1.0, 1.0, bend < 0.02 * at + 0.0003 ? 1.0 : 0.0, 1.0);
+    gl_FragColor = vec4(1.0, 1.0, bend < 0.02 * at + 0.00006 ? 1.0 : 0.0, 1.0);
 }

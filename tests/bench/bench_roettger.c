@@ -83,13 +83,15 @@ static int run(const char *name, int size)
             ok = draw(s, way, &ms[way][frame < 0 ? 0 : frame], message) &&
                  draw(s, way, &ms[way][frame < 0 ? 0 : frame], message);
         }
-    for (int way = 0; way < WAYS; way++)
+    for (int way = 0; way < WAYS && ok; way++)
         qsort(ms[way], FRAMES, sizeof(double), by_value);
-    printf("%s,%u", name, (unsigned)side);
-    for (int way = 0; way < WAYS - 1; way++)
+    if (ok)
+        printf("%s,%u", name, (unsigned)side);
+    for (int way = 0; way < WAYS - 1 && ok; way++)
         printf(",%.2f,%.2f", ms[WAYS - 1][FRAMES / 2] / ms[way][FRAMES / 2], his[size][way] / his[size][WAYS - 1]);
-    printf(",%.2f\n", ms[WAYS - 1][FRAMES / 2]);
-    if (!ok)
+    if (ok)
+        printf(",%.2f\n", ms[WAYS - 1][FRAMES / 2]);
+    else
         fprintf(stderr, "bench_roettger: %s\n", message);
     stage_close(s);
     scene_free(&loaded);

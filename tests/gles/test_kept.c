@@ -13,8 +13,8 @@
 
 enum { BYTES = 4 * WIDTH * HEIGHT };
 
+static staged drawn;
 static stage *s;
-static scene loaded;
 
 static void open_stage(const char *name)
 {
@@ -24,17 +24,9 @@ static void open_stage(const char *name)
                                    .depth_bits = 24,
                                    .stencil_bits = 8,
                                    .cache = {.masks_every = EVERY}};
-    char path[128], message[SCENE_MESSAGE] = "";
 
-    snprintf(path, sizeof path, "build/scenes/%s.gltf", name);
-    if (!scene_load(&loaded, path, NULL, message) || stage_open(&s, &loaded, &options, message) != 0)
-        fail_msg("%s: %s", name, message);
-}
-
-static void close_stage(void)
-{
-    stage_close(s);
-    scene_free(&loaded);
+    staged_open_as(&drawn, name, &options);
+    s = drawn.stage;
 }
 
 static stage_wish wish_for(gn_method method, int keeps)
@@ -63,8 +55,8 @@ static void draw(const stage_wish *wish, uint8_t rgba[BYTES])
     assert_int_equal(s->gl->glGetError(), GL_NO_ERROR);
 }
 
-/* Lights that turn, an eye that stays: for EVERY frames the picture is the first one's, but for what faces the light by its
- * place now; then a new one's. */
+/* Lights that turn, an eye that stays: for EVERY frames the masks are the first one's, to the last bit, and the picture is not that of
+ * a frame of its own; then they are new. */
 static void masks_stay_until_they_are_due(void **state)
 {
     static const gn_method methods[] = {GN_METHOD_STENCIL, GN_METHOD_COUNT, GN_METHOD_ALPHA, GN_METHOD_SCREEN};
@@ -73,7 +65,8 @@ static void masks_stay_until_they_are_due(void **state)
     (void)state;
     for (size_t m = 0; m < sizeof methods / sizeof methods[0]; m++) {
         stage_wish once, keeping;
-        size_t moved = 0;
+        size_t moved = 0, bytes;
+        uint8_t *first = NULL, *mask;
 
         open_stage("colours");
         once = wish_for(methods[m], 0);
@@ -93,9 +86,19 @@ static void masks_stay_until_they_are_due(void **state)
                 assert_memory_equal(kept, fresh[frame], BYTES);
             else
                 moved += memcmp(kept, fresh[frame], BYTES) != 0;
+            mask = staged_read_mask(&drawn, 0);
+            bytes = (size_t)4 * s->plan->mask_size[0] * s->plan->mask_size[1];
+            if (frame % EVERY == 0) {
+                free(first);
+                first = mask;
+                continue;
+            }
+            assert_memory_equal(mask, first, bytes);
+            free(mask);
         }
+        free(first);
         assert_true(moved == 2 * (EVERY - 1));
-        close_stage();
+        staged_close(&drawn);
     }
 }
 
@@ -126,8 +129,35 @@ static void old_masks_are_in_their_places(void **state)
         }
         /* after a pass of depth alone the last of several surfaces of one depth is seen, and not the first */
         assert_true(differing <= (way == 2 ? BYTES / 500 : 0));
-        close_stage();
+        staged_close(&drawn);
     }
+}
+
+/* What comes nearer changes what depth is carried as: in frames that use masks again it is what they have. */
+static void depth_stays_what_masks_carry(void **state)
+{
+    static uint8_t rgba[BYTES];
+    double carried[2] = {0, 0};
+
+    (void)state;
+    open_stage("colours");
+    for (int frame = 0; frame < EVERY + 1; frame++) {
+        stage_wish wish = wish_for(GN_METHOD_COUNT, 1);
+
+        wish.upsample = GN_UPSAMPLE_DEPTH;
+        stage_pose(s, 0, 0);
+        for (int axis = 0; axis < 3; axis++)
+            drawn.loaded.camera.world[12 + axis] -= 0.2 * frame * drawn.loaded.camera.world[8 + axis];
+        draw(&wish, rgba);
+        assert_int_equal(s->plan->mask_age, frame % EVERY);
+        if (frame == 0)
+            memcpy(carried, s->plan->mask_depth, sizeof carried);
+        if (frame < EVERY)
+            assert_memory_equal(carried, s->plan->mask_depth, sizeof carried);
+        else
+            assert_true(carried[0] > s->plan->mask_depth[0]);
+    }
+    staged_close(&drawn);
 }
 
 /* Of another method, scale or number of lights; or of a light that was out of view. */
@@ -151,7 +181,7 @@ static void they_are_made_anew_where_they_cannot_serve(void **state)
         draw(&wish, rgba);
         assert_int_equal(s->plan->mask_age, 0);
     }
-    close_stage();
+    staged_close(&drawn);
 
     open_stage("torches"); /* lights with a range */
     stage_pose(s, 0, 0);
@@ -168,7 +198,7 @@ static void they_are_made_anew_where_they_cannot_serve(void **state)
     assert_true(s->plan->lights[0].is_shadowed);
     draw(&wish, rgba);
     assert_int_equal(s->plan->mask_age, 1);
-    close_stage();
+    staged_close(&drawn);
 }
 
 /* Another plan has made masks since: refused in words, until the cache forgets them. */
@@ -196,7 +226,7 @@ static void what_is_gone_is_refused(void **state)
     assert_int_equal(s->plan->mask_age, 0);
     draw(&keeping, rgba);
     assert_int_equal(s->plan->mask_age, 1);
-    close_stage();
+    staged_close(&drawn);
 }
 
 /* Under a stencil masks are in no texture to stay in: the plan says so. */
@@ -214,15 +244,15 @@ static void without_textures_they_are_made_each_time(void **state)
         assert_int_equal(s->plan->mask_age, 0);
         assert_non_null(strstr(s->plan->lights[0].reason, "made in each frame"));
     }
-    close_stage();
+    staged_close(&drawn);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(masks_stay_until_they_are_due), cmocka_unit_test(old_masks_are_in_their_places),
-        cmocka_unit_test(they_are_made_anew_where_they_cannot_serve), cmocka_unit_test(what_is_gone_is_refused),
-        cmocka_unit_test(without_textures_they_are_made_each_time)};
+        cmocka_unit_test(depth_stays_what_masks_carry),  cmocka_unit_test(they_are_made_anew_where_they_cannot_serve),
+        cmocka_unit_test(what_is_gone_is_refused),       cmocka_unit_test(without_textures_they_are_made_each_time)};
 
     return cmocka_run_group_tests_name("kept", tests, NULL, NULL);
 }

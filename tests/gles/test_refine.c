@@ -176,6 +176,7 @@ static void it_goes_with_the_rest(void **state)
         {"courtyard", {.casting = 1}, 1u << GN_CAN_W0, 0},
         {"coplanar", {.casting = 1, .blend_once = 1}, 0, 0},
         {"many_lights", {.casting = 1}, 0, 0},
+        {"colours", {.casting = 0, .blend_once = 1}, 0, 0}, /* no light has a shadow */
         {"hall", {.casting = 1, .shade = GN_SHADE_ATTENUATE}, 0, 0},
         {"nest_256", {.casting = 1}, 0, 1},
         {"nest_257", {.casting = 1}, 0, 1},
@@ -203,6 +204,77 @@ static void it_goes_with_the_rest(void **state)
     }
 }
 
+static void plan_refined(gn_shade shade)
+{
+    const stage_wish wish = {.method = GN_METHOD_REFINE,
+                             .casting = 1,
+                             .light_count = drawn.stage->light_count,
+                             .unbounded = 1,
+                             .shade = shade};
+    char message[SCENE_MESSAGE] = "";
+
+    if (stage_plan(drawn.stage, &wish, message) != 0)
+        fail_msg("%s", message);
+}
+
+/* Records that are thin, of one light or of any (-1), of one object or of any. */
+static int count_thin(int light, int object)
+{
+    const gn_plan *plan = drawn.stage->plan;
+    int count = 0;
+
+    for (uint32_t i = 0; i < plan->record_count; i++)
+        count += plan->records[i].thin && (light < 0 || plan->records[i].light == (uint32_t)light) &&
+                 (object < 0 || plan->records[i].object == (uint32_t)object);
+    return count;
+}
+
+/* By plans alone, of the fence (object 1): from inside its box, with a light in its middle; and where volumes have no end
+ * of their own never less than where they have. */
+static void thin_is_told_in_every_place(void **state)
+{
+    static const double along_it[16] = {0, 0, -1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 1.4, 0.5, -0.4, 1};
+    int more = 0;
+    stage *s;
+
+    (void)state;
+    staged_open(&drawn, "fence", WIDTH, HEIGHT);
+    s = drawn.stage;
+    plan_refined(GN_SHADE_ADDITIVE);
+    assert_true(s->plan->objects[1].thin && !s->plan->objects[0].thin && !s->plan->objects[6].thin);
+    assert_true(count_thin(0, 1) > 0 && count_thin(0, 6) == 0);
+    for (int k = 0; k < 3; k++)
+        s->lights[0].position[k] = k == 1 ? 0.45 : 0.0;
+    plan_refined(GN_SHADE_ADDITIVE);
+    assert_true(count_thin(0, 1) > 0);
+    memcpy(drawn.loaded.camera.world, along_it, sizeof along_it);
+    plan_refined(GN_SHADE_ADDITIVE);
+    assert_true(s->plan->objects[1].thin);
+    stage_pose(s, 0, 0);
+    for (uint32_t width = WIDTH; width <= 16 * WIDTH; width += WIDTH / 4) {
+        int ended, endless;
+
+        s->target.width = width;
+        s->target.height = width * HEIGHT / WIDTH;
+        plan_refined(GN_SHADE_ADDITIVE);
+        ended = count_thin(-1, -1);
+        plan_refined(GN_SHADE_ATTENUATE);
+        endless = count_thin(-1, -1);
+        assert_true(endless >= ended);
+        more += endless > ended; /* told by the farthest that it may fall on */
+        s->target.hidden = 1u << GN_CAN_W0;
+        plan_refined(GN_SHADE_ADDITIVE);
+        assert_true(count_thin(-1, -1) >= ended);
+        s->target.hidden = 0;
+        if (width == WIDTH)
+            assert_true(ended > 4);
+        if (width == 16 * WIDTH)
+            assert_int_equal(ended, 0);
+    }
+    assert_true(more > 0);
+    staged_close(&drawn);
+}
+
 static void what_it_lacks_is_named(void **state)
 {
     const stage_wish wish = {.method = GN_METHOD_REFINE, .casting = 1, .light_count = 1};
@@ -219,10 +291,12 @@ static void what_it_lacks_is_named(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(little_is_wrong_and_little_is_counted), cmocka_unit_test(nothing_thin_is_lost),
-        cmocka_unit_test(nothing_thin_is_darkened), cmocka_unit_test(it_goes_with_the_rest),
-        cmocka_unit_test(what_it_lacks_is_named)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(little_is_wrong_and_little_is_counted),
+                                       cmocka_unit_test(nothing_thin_is_lost),
+                                       cmocka_unit_test(nothing_thin_is_darkened),
+                                       cmocka_unit_test(it_goes_with_the_rest),
+                                       cmocka_unit_test(thin_is_told_in_every_place),
+                                       cmocka_unit_test(what_it_lacks_is_named)};
 
     return cmocka_run_group_tests_name("refine", tests, NULL, NULL);
 }

@@ -147,7 +147,7 @@ static double half_over_w(double depth)
 /* small: the plan's mask, with the depth that floats gave it. */
 static int half_mask(const uint8_t *small, double depth, int x, int y)
 {
-    static const double taps[4][2] = {{0.5, 0.17}, {-0.5, -0.17}, {-0.17, 0.5}, {0.17, -0.5}};
+    static const double taps[4][2] = {{0.5, 0.1}, {-0.5, -0.1}, {-0.1, 0.5}, {0.1, -0.5}};
     const double own = half_over_w(depth), alike = half(half(0.004 * own) + half(0.0002));
     double off[4], mask[4], weight[4], sum = 0.0, mean = 0.0, lit = 0.0;
 
@@ -224,7 +224,14 @@ static errors found[WAYS];
 static int measure_once(void **state)
 {
     (void)state;
+    static const char *const names[WAYS] = {"bilinear", "depth",       "sharpened",
+                                            "both",     "half floats", "half floats, emulated"};
+
     measure(found);
+    for (int way = 0; way < WAYS; way++)
+        print_message("           %s: %lu wrong near edges, %lu of them leaked; %lu elsewhere\n", names[way],
+                      (unsigned long)found[way].near_edge, (unsigned long)found[way].leaked,
+                      (unsigned long)found[way].elsewhere);
     return 0;
 }
 

@@ -7,17 +7,24 @@
 
 #include "gn_test.h"
 
+void staged_open_as(staged *t, const char *name, const stage_options *options)
+{
+    char path[128], message[SCENE_MESSAGE] = "";
+
+    snprintf(path, sizeof path, "build/scenes/%s.gltf", name);
+    if (!scene_load(&t->loaded, path, NULL, message) ||
+        !scene_ensure_view(&t->loaded, (double)options->width / options->height, NULL) ||
+        stage_open(&t->stage, &t->loaded, options, message) != 0)
+        fail_msg("%s: %s", name, message);
+    stage_pose(t->stage, 0, 0);
+}
+
 void staged_open(staged *t, const char *name, uint32_t width, uint32_t height)
 {
     const stage_options options = {
         .platform = "egl", .width = width, .height = height, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
-    char path[128], message[SCENE_MESSAGE] = "";
 
-    snprintf(path, sizeof path, "build/scenes/%s.gltf", name);
-    if (!scene_load(&t->loaded, path, NULL, message) || !scene_ensure_view(&t->loaded, (double)width / height, NULL) ||
-        stage_open(&t->stage, &t->loaded, &options, message) != 0)
-        fail_msg("%s: %s", name, message);
-    stage_pose(t->stage, 0, 0);
+    staged_open_as(t, name, &options);
 }
 
 void staged_close(staged *t)

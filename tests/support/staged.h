@@ -10,6 +10,8 @@ typedef struct staged {
 
 /* 8 bits a channel, 24 of depth, 8 of stencil; posed at its start. A failure fails the test. */
 void staged_open(staged *t, const char *name, uint32_t width, uint32_t height);
+/* The same with options of the test's own. */
+void staged_open_as(staged *t, const char *name, const stage_options *options);
 void staged_close(staged *t);
 
 /* The plan's first mask texture: [mask_size[1]][mask_size[0]][4], row 0 on top. The caller frees it. */
