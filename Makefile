@@ -55,7 +55,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: all deps demo test truth bench boards headers layers asan valgrind size install install-lib format clean help check-build force
+.PHONY: all deps demo test truth bench certify boards headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -79,6 +79,9 @@ bench: $(BENCHES) $(SCENES) ## what things cost: counts, and times as remarks; i
 	@$(B)/tests/bench/bench_ranges && $(B)/tests/bench/bench_small && $(B)/tests/bench/bench_roettger && $(B)/tests/bench/bench_refine
 	@sh tests/bench/rebuild.sh $(B) "$(CC)" > build/rebuild.csv && mv build/rebuild.csv tests/bench/rebuild.csv
 	@$(B)/tests/bench/bench_frames > build/frames.csv && mv build/frames.csv tests/bench/frames.csv
+
+certify: $(B)/gnomon $(SCENES) ## no exact method is wrong along a path round each test scene
+	@$(B)/gnomon measure --certify $$(awk '$$3 != "extreme" {print "build/scenes/" $$1 ".gltf"}' build/scenes/scenes.txt)
 
 boards: $(B)/gnomon ## probe every driver that this machine can run, into docs/boards.md
 	@$(PYTHON) tests/boards.py $(B)/gnomon > build/boards.md && mv build/boards.md docs/boards.md

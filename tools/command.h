@@ -32,7 +32,8 @@ int write_png(const char *path, const uint8_t *pixels, uint32_t width, uint32_t 
 int command_render(int count, char **arguments);
 int command_probe(int count, char **arguments);
 int command_methods(int count, char **arguments);
+int command_measure(int count, char **arguments);
 
 /* The text of --help of each. */
-extern const char help_render[], help_probe[], help_methods[];
+extern const char help_render[], help_probe[], help_methods[], help_measure[];
 #endif

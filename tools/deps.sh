@@ -26,6 +26,8 @@ need libegl1 library libEGL.so.1
 need libgles2 library libGLESv2.so.2
 need libgl1-mesa-dri sh -c 'ls /usr/lib/*/dri/swrast_dri.so'
 need libosmesa6 library libOSMesa.so
+need gnuplot-nox command -v gnuplot
+need chromium command -v chromium
 need python3-skimage /usr/bin/python3 -c "import skimage"
 
 [ -z "$missing" ] && exit 0

@@ -48,6 +48,7 @@ static const struct {
 } commands[] = {
     {"render", command_render, help_render, "draw a glTF scene with shadows into a picture"},
     {"probe", command_probe, help_probe, "what the GL contexts of this machine are and can do"},
+    {"measure", command_measure, help_measure, "what each method costs here, and how far from the truth it is"},
     {"methods", command_methods, help_methods, "the methods, and what each needs"},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

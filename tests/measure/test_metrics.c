@@ -24,7 +24,7 @@ static void put_shadow(uint8_t lit[PIXELS], int x, int y, int width, int height)
 
 static mask_metrics measure(const uint8_t *lit, const uint8_t *truth)
 {
-    const mask_pair pair = {WIDTH, HEIGHT, lit, truth, all_seen};
+    const mask_pair pair = {WIDTH, HEIGHT, lit, truth, all_seen, NULL};
     mask_metrics m;
 
     assert_true(mask_measure(&pair, &m));
@@ -112,7 +112,8 @@ static void a_shift_by_a_pixel(void **state)
 /* A hole of 3 x 3 in the middle of a large shadow, twelve pixels from its boundary: a leak. */
 static void a_leak_is_interior(void **state)
 {
-    static uint8_t lit[PIXELS], truth[PIXELS];
+    static uint8_t lit[PIXELS], truth[PIXELS], crossed[PIXELS];
+    const mask_pair pair = {WIDTH, HEIGHT, lit, truth, all_seen, crossed};
     mask_metrics m;
 
     (void)state;
@@ -126,6 +127,10 @@ static void a_leak_is_interior(void **state)
     near(m.precision, 1);
     near(m.recall, 771.0 / 780.0);
     assert_true(m.boundary_f[1] < 1.0 && m.boundary_f[1] > 0.9);
+    memset(crossed, 0, PIXELS);
+    crossed[WIDTH * 15 + 18] = 1; /* beside it an edge that no pixel's middle shows */
+    assert_true(mask_measure(&pair, &m));
+    assert_int_equal(m.interior, 5); /* within two of it are the first column, and the middle of the second */
 }
 
 /* A shadow that is missed: nothing in common; boundaries as far apart as can be. */
@@ -153,7 +158,7 @@ static void a_shadow_is_missed(void **state)
 static void the_background_does_not_count(void **state)
 {
     static uint8_t lit[PIXELS], truth[PIXELS], seen[PIXELS];
-    const mask_pair pair = {WIDTH, HEIGHT, lit, truth, seen};
+    const mask_pair pair = {WIDTH, HEIGHT, lit, truth, seen, NULL};
     mask_metrics m;
 
     (void)state;
@@ -171,8 +176,8 @@ static void the_background_does_not_count(void **state)
 static void flicker_is_of_errors(void **state)
 {
     static uint8_t lit[2][PIXELS], truth[2][PIXELS];
-    const mask_pair before = {WIDTH, HEIGHT, lit[0], truth[0], all_seen};
-    const mask_pair after = {WIDTH, HEIGHT, lit[1], truth[1], all_seen};
+    const mask_pair before = {WIDTH, HEIGHT, lit[0], truth[0], all_seen, NULL};
+    const mask_pair after = {WIDTH, HEIGHT, lit[1], truth[1], all_seen, NULL};
 
     (void)state;
     put_shadow(truth[0], 10, 8, 12, 9);

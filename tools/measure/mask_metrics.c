@@ -138,7 +138,7 @@ static void compare_outlines(const mask_pair *p, outlines *o, mask_metrics *out)
                            hypot((double)p->width, (double)p->height));
 }
 
-static void compare_areas(const mask_pair *p, const float *to_truth, mask_metrics *out)
+static void compare_areas(const mask_pair *p, const float *to_edge, mask_metrics *out)
 {
     const size_t pixels = (size_t)p->width * p->height;
     size_t both = 0, mine = 0, theirs = 0;
@@ -155,7 +155,7 @@ static void compare_areas(const mask_pair *p, const float *to_truth, mask_metric
         if (is_mine == is_theirs)
             continue;
         out->wrong++;
-        *(to_truth[i] > 4.0f ? &out->interior : &out->boundary) += 1;
+        *(to_edge[i] > 4.0f ? &out->interior : &out->boundary) += 1;
     }
     out->iou = mine + theirs > both ? (double)both / (double)(mine + theirs - both) : 1.0;
     out->precision = mine ? (double)both / (double)mine : 1.0;
@@ -183,9 +183,13 @@ int mask_measure(const mask_pair *p, mask_metrics *out)
              distance_transform(o.of_truth, p->width, p->height, o.to_truth);
     }
     if (ok) {
-        compare_areas(p, o.to_truth, out);
         compare_outlines(p, &o, out);
+        for (size_t i = 0; p->crossed && i < pixels; i++)
+            o.of_truth[i] |= p->crossed[i] != 0;
+        ok = !p->crossed || distance_transform(o.of_truth, p->width, p->height, o.to_truth);
     }
+    if (ok)
+        compare_areas(p, o.to_truth, out);
     free(o.of_mask);
     free(o.of_truth);
     free(o.to_mask);

@@ -12,13 +12,15 @@ typedef struct mask_pair {
     uint32_t width, height;
     const uint8_t *lit, *true_lit; /* by the method; by the truth */
     const uint8_t *visible;        /* 255 where the truth shows a surface */
+    const uint8_t *crossed; /* not 0 where an edge crosses the pixel for all that its middle shows; NULL: not known */
 } mask_pair;
 
 typedef struct mask_metrics {
-    size_t visible, wrong;     /* pixels */
-    size_t interior, boundary; /* of the wrong: more than two pixels from the truth's boundary, and the others */
-    double iou;                /* of shadow: 1 where neither has any */
-    double precision, recall;  /* 1 where there is nothing to be wrong, or missed */
+    size_t visible, wrong; /* pixels */
+    size_t interior,
+        boundary; /* of the wrong: more than two pixels from the truth's boundary and any pixel that is crossed, and the others */
+    double iou;               /* of shadow: 1 where neither has any */
+    double precision, recall; /* 1 where there is nothing to be wrong, or missed */
     double boundary_f
         [2]; /* the share of boundaries that lie within 1, 2 pixels of each other: harmonic mean of precision and
                                   recall */

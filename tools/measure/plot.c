@@ -1,0 +1,241 @@
+/* plot.c - see plot.h. Each panel's points go to gnuplot with its commands; the picture appears whole or not at all. */
+#define _POSIX_C_SOURCE 200809L
+#include "plot.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+
+#define LEAST 0.001 /* per cent: what is drawn for none */
+
+/* gnuplot, and the file that it makes. */
+typedef struct plotter {
+    FILE *pipe;
+    const char *path;
+    char part[1024];
+} plotter;
+
+static int start(plotter *p, const char *path, size_t columns, size_t rows)
+{
+    p->path = path;
+    snprintf(p->part, sizeof p->part, "%s.part", path);
+    if (system("command -v gnuplot > /dev/null 2>&1") != 0) {
+        say("%s: needs gnuplot, which is not installed", path);
+        return 0;
+    }
+    p->pipe = popen("gnuplot 2> /dev/null", "w");
+    if (!p->pipe) {
+        say("%s: gnuplot cannot be started", path);
+        return 0;
+    }
+    fprintf(p->pipe,
+            "set terminal svg size %lu,%lu dynamic font 'sans-serif,12' background '#ffffff'\nset output '%s'\n"
+            "set multiplot layout %lu,%lu\nset grid lc '#dddddd'\nset border lc '#555555'\nset key off\n",
+            (unsigned long)(560 * columns), (unsigned long)(380 * rows), p->part, (unsigned long)rows,
+            (unsigned long)columns);
+    return 1;
+}
+
+static int finish(plotter *p)
+{
+    fprintf(p->pipe, "unset multiplot\nset output\n");
+    if (pclose(p->pipe) == 0 && rename(p->part, p->path) == 0)
+        return 1;
+    say("%s: gnuplot fails", p->path);
+    remove(p->part);
+    return 0;
+}
+
+/* Names go into gnuplot's single quotes. */
+static void put_name(FILE *f, const char *name)
+{
+    for (; *name; name++)
+        fputc(*name == '\'' || *name == '"' || *name == '\\' || *name < ' ' ? '-' : *name, f);
+}
+
+static int is_plotted(const trade_rows *rows, size_t row, size_t panel)
+{
+    return rows->of[row].panel == panel && !isnan(trade_error(rows, row));
+}
+
+/* Whether a name there would be written over the last one. */
+static int is_near(double named[2], double cost, double error)
+{
+    if (named[0] > 0.0 && fabs(log(cost / named[0])) < 0.2 && fabs(log(error / named[1])) < 0.4)
+        return 1;
+    named[0] = cost;
+    named[1] = error;
+    return 0;
+}
+
+/* Points: cost, error, least and most cost, name; dominated ones, or those of the frontier from cheap to dear. */
+static size_t put_points(const trade_rows *rows, FILE *f, size_t panel, const char *column, int dominated)
+{
+    double last = -INFINITY, named[2] = {0, 0};
+    size_t count = 0;
+
+    fprintf(f, "$%s << EOD\n", dominated ? "dominated" : "frontier");
+    for (;;) {
+        size_t next = rows->count;
+
+        for (size_t i = 0; i < rows->count; i++)
+            if (is_plotted(rows, i, panel) && trade_is_dominated(rows, i, column) == dominated &&
+                trade_number(rows, i, column) > last &&
+                (next == rows->count || trade_number(rows, i, column) < trade_number(rows, next, column)))
+                next = i;
+        if (next == rows->count)
+            break;
+        last = trade_number(rows, next, column);
+        fprintf(f, "%g %g ", last, fmax(trade_error(rows, next), LEAST));
+        if (strcmp(column, "frame_ms") == 0)
+            fprintf(f, "%g %g \"", trade_number(rows, next, "frame_ms_p5"), trade_number(rows, next, "frame_ms_p95"));
+        else
+            fprintf(f, "%g %g \"", last, last);
+        if (!is_near(named, last, fmax(trade_error(rows, next), LEAST)))
+            put_name(f, trade_word(rows, next, "config"));
+        fprintf(f, "\"\n");
+        count++;
+    }
+    fprintf(f, "EOD\n");
+    return count;
+}
+
+static void plot_panel(const trade_rows *rows, FILE *f, size_t panel, const char *column, const char *label)
+{
+    char name[256];
+    size_t dominated, frontier;
+
+    trade_panel_name(rows, panel, name, sizeof name);
+    dominated = put_points(rows, f, panel, column, 1);
+    frontier = put_points(rows, f, panel, column, 0);
+    fprintf(f, "set title '");
+    put_name(f, name);
+    fprintf(
+        f,
+        "' noenhanced\nset xlabel '%s'\nset ylabel 'wrong pixels, %% (%g: none)'\nset logscale xy\nset xrange [*:*]\n"
+        "set yrange [%g:100]\n",
+        label, LEAST, LEAST / 2.0);
+    if (dominated + frontier == 0)
+        return;
+    fprintf(f, "plot ");
+    if (dominated)
+        fprintf(f, "$dominated using 1:2:3:4 with xerrorbars pt 7 ps 0.4 lc '#bbbbbb'%s", frontier ? ", " : "\n");
+    if (frontier)
+        fprintf(f, "$frontier using 1:2 with lines lc '#c03010', $frontier using 1:2:3:4 with xerrorbars pt 7 ps 0.6 "
+                   "lc '#c03010', "
+                   "$frontier using 1:2:5 with labels offset 0.6,0.6 left font ',10' noenhanced\n");
+}
+
+int plot_trade(const trade_rows *rows, const char *path)
+{
+    plotter p;
+
+    if (rows->panel_count == 0 || !start(&p, path, 2, rows->panel_count))
+        return rows->panel_count == 0;
+    for (size_t panel = 0; panel < rows->panel_count; panel++) {
+        plot_panel(rows, p.pipe, panel, "frame_ms", "ms a frame, median, 5 to 95 %");
+        plot_panel(rows, p.pipe, panel, "energy_estimate_mj", "mJ a frame, estimated from traffic");
+    }
+    return finish(&p);
+}
+
+/* What times are drawn against. */
+static const struct {
+    const char *column, *label;
+} scales[] = {{"lights", "lights"}, {"faces", "faces of casters"}, {"pixels", "pixels of a frame"}};
+enum { SCALES = sizeof scales / sizeof scales[0] };
+
+static double scale_of(const trade_rows *rows, size_t row, int scale)
+{
+    if (scale == 2)
+        return trade_number(rows, row, "width") * trade_number(rows, row, "height");
+    return trade_number(rows, row, scales[scale].column);
+}
+
+/* Rows of full masks that differ from the first one in what a panel is of, and in nothing else but for faces: those are of other
+ * scenes. */
+static int is_of_scale(const trade_rows *rows, size_t row, size_t first, int scale)
+{
+    if (isnan(trade_error(rows, row)) || trade_number(rows, row, "scale") != 1.0)
+        return 0;
+    for (int other = 0; other < SCALES; other++)
+        if (other != scale && other != 1 && scale_of(rows, row, other) != scale_of(rows, first, other))
+            return 0;
+    return scale == 1 || strcmp(trade_word(rows, row, "scene"), trade_word(rows, first, "scene")) == 0;
+}
+
+/* Of how many values the rows of a panel are. */
+static size_t count_values(const trade_rows *rows, int scale)
+{
+    size_t count = 0;
+
+    for (size_t i = 0; i < rows->count; i++) {
+        int is_new = is_of_scale(rows, i, 0, scale);
+
+        for (size_t k = 0; k < i && is_new; k++)
+            is_new = !(is_of_scale(rows, k, 0, scale) && scale_of(rows, k, scale) == scale_of(rows, i, scale));
+        count += (size_t)is_new;
+    }
+    return count;
+}
+
+static void plot_lines(const trade_rows *rows, FILE *f, int scale)
+{
+    size_t lines = 0;
+
+    for (size_t i = 0; i < rows->count; i++) {
+        int is_first = is_of_scale(rows, i, 0, scale);
+        double last = -INFINITY;
+
+        for (size_t k = 0; k < i && is_first; k++)
+            is_first = !(is_of_scale(rows, k, 0, scale) &&
+                         strcmp(trade_word(rows, k, "config"), trade_word(rows, i, "config")) == 0);
+        if (!is_first)
+            continue;
+        fprintf(f, "$line%lu << EOD\n", (unsigned long)lines++);
+        for (;;) {
+            size_t next = rows->count;
+
+            for (size_t k = i; k < rows->count; k++)
+                if (is_of_scale(rows, k, 0, scale) &&
+                    strcmp(trade_word(rows, k, "config"), trade_word(rows, i, "config")) == 0 &&
+                    scale_of(rows, k, scale) > last &&
+                    (next == rows->count || scale_of(rows, k, scale) < scale_of(rows, next, scale)))
+                    next = k;
+            if (next == rows->count)
+                break;
+            last = scale_of(rows, next, scale);
+            fprintf(f, "%g %g \"", last, trade_number(rows, next, "frame_ms"));
+            put_name(f, trade_word(rows, next, "config"));
+            fprintf(f, "\"\n");
+        }
+        fprintf(f, "EOD\n");
+    }
+    fprintf(f,
+            "set title 'ms a frame against %s'\nset xlabel '%s'\nset ylabel 'ms a frame, median'\nset logscale xy\n"
+            "set xrange [*:*]\nset yrange [*:*]\nset key outside right noenhanced font ',10'\nplot ",
+            scales[scale].label, scales[scale].label);
+    for (size_t i = 0; i < lines; i++)
+        fprintf(f, "%s$line%lu using 1:2:(strcol(3)) with linespoints pt 7 ps 0.4 lw 1.5 title word($line%lu[1], 3)",
+                i ? ", " : "", (unsigned long)i, (unsigned long)i);
+    fprintf(f, "\n");
+}
+
+int plot_scaling(const trade_rows *rows, const char *path)
+{
+    size_t panels = 0;
+    plotter p;
+
+    for (int scale = 0; scale < SCALES; scale++)
+        panels += rows->count > 0 && count_values(rows, scale) > 1;
+    if (panels == 0)
+        return 1;
+    if (!start(&p, path, 1, panels))
+        return 0;
+    for (int scale = 0; scale < SCALES; scale++)
+        if (count_values(rows, scale) > 1)
+            plot_lines(rows, p.pipe, scale);
+    return finish(&p);
+}

@@ -1,0 +1,148 @@
+/* subject.c - a scene with its truth: see trial.h. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "picture.h"
+#include "trial.h"
+#include "truth.h"
+
+#define STEP (2.0 * 3.14159265358979323846 / 180.0) /* of the path round the centre, a frame */
+
+/* A camera's axes from where it is and what it looks at: its -z that way, y up. */
+static void look_at(double world[16], const double view[6])
+{
+    double z[3], x[3], y[3], length;
+
+    for (int i = 0; i < 3; i++)
+        z[i] = view[i] - view[3 + i];
+    length = sqrt(z[0] * z[0] + z[1] * z[1] + z[2] * z[2]);
+    for (int i = 0; i < 3; i++)
+        z[i] /= length;
+    length = hypot(z[0], z[2]);
+    x[0] = length > 0.0 ? z[2] / length : 1.0; /* straight up or down: x stays */
+    x[1] = 0.0;
+    x[2] = length > 0.0 ? -z[0] / length : 0.0;
+    for (int i = 0; i < 3; i++)
+        y[i] = z[(i + 1) % 3] * x[(i + 2) % 3] - z[(i + 2) % 3] * x[(i + 1) % 3];
+    for (int i = 0; i < 3; i++) {
+        world[i] = x[i];
+        world[4 + i] = y[i];
+        world[8 + i] = z[i];
+        world[12 + i] = view[i];
+    }
+}
+
+static void turn(double v[3], double angle, const double centre[3], int is_point)
+{
+    const double x = v[0] - (is_point ? centre[0] : 0.0), z = v[2] - (is_point ? centre[2] : 0.0);
+
+    v[0] = x * cos(angle) + z * sin(angle) + (is_point ? centre[0] : 0.0);
+    v[2] = z * cos(angle) - x * sin(angle) + (is_point ? centre[2] : 0.0);
+}
+
+void subject_pose(subject *s, uint32_t frame)
+{
+    double *world = s->loaded.camera.world;
+
+    stage_pose(s->stage, frame / 60.0, 0.0);
+    if (s->path->views)
+        look_at(world, s->path->views[frame % s->path->count]);
+    for (int axis = 0; axis < 4 && !s->path->views; axis++)
+        turn(world + 4 * axis, STEP * frame, s->stage->centre, axis == 3);
+}
+
+static int trace_frame(subject *s, uint32_t frame, void (*progress)(void), char message[SCENE_MESSAGE])
+{
+    const size_t pixels = (size_t)s->stage->target.width * s->stage->target.height;
+    const truth_options options = {
+        s->stage->target.width, s->stage->target.height, s->stage->target.depth_bits, {0, 0}};
+    truth *t;
+    int ok;
+
+    subject_pose(s, frame);
+    t = truth_create(&s->loaded, &options, message);
+    ok = t != NULL;
+    for (uint32_t light = 0; ok && light < s->lights; light++) {
+        truth_mask *m = &s->truths[(size_t)frame * s->lights + light];
+
+        progress();
+        m->lit = malloc(3 * pixels);
+        if (!m->lit) {
+            snprintf(message, SCENE_MESSAGE, "no memory for the truth");
+            ok = 0;
+            break;
+        }
+        m->visible = m->lit + pixels;
+        m->classes = m->lit + 2 * pixels;
+        ok = truth_light(t, light, m->lit, m->visible, m->classes, message);
+    }
+    truth_free(t);
+    return ok;
+}
+
+/* The frame without shadows: in ambient light, and with one light each. */
+static int draw_surfaces(subject *s, uint32_t frame, char message[SCENE_MESSAGE])
+{
+    const size_t bytes = (size_t)3 * s->stage->target.width * s->stage->target.height;
+
+    subject_pose(s, frame);
+    for (uint32_t i = 0; i <= s->lights; i++) {
+        const stage_wish wish = {
+            .method = GN_METHOD_AUTO, .first_light = i ? i - 1 : 0, .light_count = i ? 1 : 0, .unbounded = 1};
+
+        if (stage_plan(s->stage, &wish, message) != 0 || !stage_draw_lit(s->stage, wish.first_light, message) ||
+            !read_levels(s->stage, s->surfaces + ((size_t)frame * (s->lights + 1) + i) * bytes))
+            return 0;
+    }
+    return 1;
+}
+
+int subject_open(subject *s, const char *file, const camera_path *path, uint32_t width, uint32_t height,
+                 uint32_t frames, uint32_t most_lights, const char *platform_name, const char *hide,
+                 void (*progress)(void))
+{
+    const stage_options options = {
+        .platform = platform_name, .width = width, .height = height, .depth_bits = 24, .stencil_bits = 8, .hide = hide};
+    char message[SCENE_MESSAGE] = "";
+    const size_t bytes = (size_t)3 * width * height;
+    int status;
+
+    memset(s, 0, sizeof *s);
+    if (!scene_load(&s->loaded, file, say_line, message) ||
+        !scene_ensure_view(&s->loaded, (double)width / height, say_line)) {
+        say("%s", message);
+        return EXIT_FAILED;
+    }
+    status = stage_open(&s->stage, &s->loaded, &options, message);
+    s->path = path;
+    s->frames = frames;
+    s->lights = s->loaded.light_count < most_lights ? (uint32_t)s->loaded.light_count : most_lights;
+    if (status == 0) {
+        s->truths = calloc((size_t)frames * s->lights + 1, sizeof *s->truths);
+        s->surfaces = malloc((size_t)frames * (s->lights + 1) * bytes);
+        if (!s->truths || !s->surfaces) {
+            snprintf(message, sizeof message, "no memory for %lu frames", (unsigned long)frames);
+            status = EXIT_FAILED;
+        }
+    }
+    for (uint32_t f = 0; f < frames && status == 0; f++)
+        if (!trace_frame(s, f, progress, message) || !draw_surfaces(s, f, message))
+            status = EXIT_FAILED;
+    if (status != 0) {
+        say("%s: %s", file, message);
+        subject_close(s);
+    }
+    return status;
+}
+
+void subject_close(subject *s)
+{
+    for (size_t i = 0; s->truths && i < (size_t)s->frames * s->lights; i++)
+        free(s->truths[i].lit);
+    free(s->truths);
+    free(s->surfaces);
+    stage_close(s->stage);
+    scene_free(&s->loaded);
+}

@@ -1,0 +1,268 @@
+/* trial.c - see trial.h. What is counted and compared is the same in every run; times are not. */
+#include "trial.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command.h"
+#include "counted_gl.h"
+#include "image_metrics.h"
+#include "mask_metrics.h"
+#include "picture.h"
+#include "truth.h"
+
+static stage_wish wish_for(const config *c, int casting)
+{
+    const stage_wish wish = {
+        .method = c->method, .one_sided = c->one_sided, .casting = casting, .scale = c->scale, .upsample = c->upsample};
+
+    return wish;
+}
+
+static size_t pixels_of(const subject *s)
+{
+    return (size_t)s->stage->target.width * s->stage->target.height;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+
+    return (x > y) - (x < y);
+}
+
+static spread_ms spread_of(double *ms, size_t count)
+{
+    spread_ms out;
+
+    qsort(ms, count, sizeof *ms, by_value);
+    out.median = ms[count / 2];
+    out.p5 = ms[count / 20];
+    out.p95 = ms[count - 1 - count / 20];
+    return out;
+}
+
+static int draw_timed(stage *st, const stage_wish *wish, double *ms, char message[SCENE_MESSAGE])
+{
+    const double start = now_ms();
+
+    if (stage_plan(st, wish, message) != 0 || !stage_draw_lit(st, 0, message))
+        return 0;
+    st->gl->glFinish();
+    *ms = now_ms() - start;
+    return 1;
+}
+
+/* Frames with and without shadows in turn; the shadow part is the difference of the two. The first of each warms up. */
+static int measure_times(subject *s, const config *c, uint32_t lights, uint32_t repeat, trial *out,
+                         char message[SCENE_MESSAGE])
+{
+    const size_t count = (size_t)s->frames * repeat;
+    double *frame = malloc(2 * count * sizeof *frame), *shadow = frame + count;
+    stage_wish with = wish_for(c, 1), without = wish_for(c, 0);
+    int ok = frame != NULL;
+
+    with.light_count = without.light_count = lights;
+    for (size_t i = 0; ok && i < count + 1; i++) {
+        const size_t at = i ? i - 1 : 0;
+        double plain;
+
+        subject_pose(s, (uint32_t)(at / repeat));
+        ok = draw_timed(s->stage, &without, &plain, message) && draw_timed(s->stage, &with, &frame[at], message);
+        if (ok)
+            shadow[at] = frame[at] - plain;
+    }
+    if (ok) {
+        out->frame = spread_of(frame, count);
+        out->shadow = spread_of(shadow, count);
+    }
+    free(frame);
+    return ok;
+}
+
+static double bytes_of(const gn_plan *plan, size_t plan_size)
+{
+    static const double of_format[] = {0, 4, 2, 2, 2};
+    const double pixels = (double)plan->mask_size[0] * plan->mask_size[1];
+    const double image =
+        plan->image.format == GN_FORMAT_NONE ? 0.0
+        : plan->image.stencil_bits
+            ? 4.0
+            : of_format[plan->image.format] + (plan->image.depth_bits > 16 ? 4.0 : plan->image.depth_bits / 8);
+
+    return pixels * (image + plan->mask_count * of_format[plan->mask_format]) + (double)plan_size;
+}
+
+static void count_casters(const subject *s, trial *out)
+{
+    const gn_plan *plan = s->stage->plan;
+
+    out->casters = out->faces = 0;
+    for (uint32_t i = 0; i < plan->object_count; i++)
+        if (plan->objects[i].flags & GN_CASTS) {
+            out->casters++;
+            out->faces += gn_mesh_get_info(plan->objects[i].mesh)->triangle_count;
+        }
+}
+
+/* What a light adds, under its true mask, to ambient light: the frame as it ought to be. */
+static void put_right_picture(const subject *s, uint32_t frame, uint32_t lights, uint8_t *rgb)
+{
+    const size_t pixels = pixels_of(s), bytes = 3 * pixels;
+    const uint8_t *const ambient = s->surfaces + (size_t)frame * (s->lights + 1) * bytes;
+
+    for (size_t i = 0; i < bytes; i++) {
+        int sum = ambient[i];
+
+        for (uint32_t l = 0; l < lights; l++)
+            if (s->truths[(size_t)frame * s->lights + l].lit[i / 3])
+                sum += ambient[(l + 1) * bytes + i] - ambient[i];
+        rgb[i] = (uint8_t)(sum > 255 ? 255 : sum);
+    }
+    encode_picture(rgb, pixels);
+}
+
+/* One frame: what it draws, and how it looks beside the right one. Into sums. */
+static int measure_frame(subject *s, const config *c, uint32_t lights, uint32_t frame, uint8_t *pictures, trial *out,
+                         char message[SCENE_MESSAGE])
+{
+    const uint32_t width = s->stage->target.width, height = s->stage->target.height;
+    uint8_t *const right = pictures + 3 * pixels_of(s);
+    stage_wish wish = wish_for(c, 1);
+    uint64_t fragments, passed;
+    gl_counts before, after;
+    double psnr;
+
+    wish.light_count = lights;
+    wish.unbounded = 1;
+    subject_pose(s, frame);
+    before = counted_gl_read();
+    if (stage_plan(s->stage, &wish, message) != 0 || !stage_draw_lit(s->stage, 0, message))
+        return 0;
+    after = counted_gl_read();
+    out->draws += (double)(after.draws - before.draws);
+    out->vertices += (double)(after.vertices - before.vertices);
+    out->indices += (double)(after.indices - before.indices);
+    out->bytes_sent += (double)(after.bytes_sent - before.bytes_sent);
+    out->traffic += s->stage->plan->traffic.written + s->stage->plan->traffic.read;
+    out->memory = fmax(out->memory, bytes_of(s->stage->plan, s->stage->plan_size));
+    count_casters(s, out);
+    for (int w = 0; w < GN_WARNING_COUNT && !out->warning[0]; w++)
+        gn_plan_explain_warning(s->stage->plan, (gn_warning)w, out->warning, sizeof out->warning);
+    if (!read_picture(s->stage, pictures) || !stage_count_fragments(s->stage, &fragments, &passed)) {
+        snprintf(message, SCENE_MESSAGE, "the frame cannot be read back");
+        return 0;
+    }
+    out->fragments += (double)fragments / (c->method == GN_METHOD_REFINE ? 1.0 : (double)c->scale * c->scale);
+    put_right_picture(s, frame, lights, right);
+    psnr = image_psnr(pictures, right, width, height);
+    out->psnr += isinf(psnr) ? 0.0 : psnr;
+    out->worst_light += isinf(psnr) ? 1 : 0; /* for now: frames without a difference */
+    out->ssim += image_ssim(pictures, right, width, height);
+    out->flip += image_flip(pictures, right, width, height);
+    return 1;
+}
+
+/* Each light's mask in each frame. before: [lights] of the frame before. */
+static int measure_masks(subject *s, const config *c, uint32_t lights, trial *out, char message[SCENE_MESSAGE])
+{
+    const size_t pixels = pixels_of(s);
+    uint8_t *memory = malloc((2 * (size_t)lights + 1) * pixels), *visible = memory + 2 * (size_t)lights * pixels;
+    int ok = memory != NULL;
+
+    for (uint32_t frame = 0; ok && frame < s->frames; frame++) {
+        subject_pose(s, frame);
+        for (uint32_t light = 0; ok && light < lights; light++) {
+            uint8_t *const lit = memory + ((size_t)light * 2 + frame % 2) * pixels;
+            const uint8_t *const last = memory + ((size_t)light * 2 + 1 - frame % 2) * pixels;
+            const truth_mask *t = &s->truths[(size_t)frame * s->lights + light], *t0 = t - s->lights;
+            const mask_pair pair = {
+                s->stage->target.width, s->stage->target.height, lit, t->lit, t->visible, t->classes};
+            stage_wish wish = wish_for(c, 1);
+            mask_metrics m;
+            uint64_t certain;
+
+            wish.first_light = light;
+            wish.light_count = 1;
+            wish.unbounded = 1;
+            ok = stage_plan(s->stage, &wish, message) == 0 && stage_draw_mask(s->stage, light, message) &&
+                 read_mask(s->stage, lit, visible) && mask_measure(&pair, &m);
+            if (!ok)
+                break;
+            out->masks++;
+            out->visible += m.visible;
+            out->wrong += m.wrong;
+            out->interior += m.interior;
+            out->boundary += m.boundary;
+            out->iou += m.iou;
+            out->precision += m.precision;
+            out->recall += m.recall;
+            out->boundary_f[0] += m.boundary_f[0];
+            out->boundary_f[1] += m.boundary_f[1];
+            out->distance95 += m.distance95;
+            certain = 0;
+            for (size_t i = 0; i < pixels; i++)
+                certain += t->classes[i] == TRUTH_CERTAIN && (lit[i] != t->lit[i] || visible[i] != t->visible[i]);
+            out->certain_wrong += certain;
+            out->warned += s->stage->plan->warnings != 0;
+            out->unwarned_certain += s->stage->plan->warnings ? 0 : certain;
+            out->unwarned_interior += s->stage->plan->warnings ? 0 : m.interior;
+            if (frame > 0) {
+                const mask_pair before = {pair.width, pair.height, last, t0->lit, t0->visible, NULL};
+
+                out->flicker += mask_flicker(&before, &pair);
+            }
+            if (m.wrong > out->worst_wrong) {
+                out->worst_wrong = m.wrong;
+                out->worst_frame = frame;
+                out->worst_light = light;
+            }
+        }
+    }
+    free(memory);
+    return ok;
+}
+
+static void divide(trial *t, uint32_t frames, uint32_t equal_frames)
+{
+    double *const of_frames[] = {&t->fragments,  &t->vertices, &t->indices, &t->draws,
+                                 &t->bytes_sent, &t->traffic,  &t->ssim,    &t->flip};
+    double *const of_masks[] = {&t->iou,           &t->precision,     &t->recall,
+                                &t->boundary_f[0], &t->boundary_f[1], &t->distance95};
+
+    for (size_t i = 0; i < sizeof of_frames / sizeof of_frames[0]; i++)
+        *of_frames[i] /= frames;
+    for (size_t i = 0; i < sizeof of_masks / sizeof of_masks[0] && t->masks; i++)
+        *of_masks[i] /= t->masks;
+    t->psnr = equal_frames < frames ? t->psnr / (frames - equal_frames) : INFINITY;
+}
+
+int trial_run(subject *s, const config *c, uint32_t lights, uint32_t repeat, trial *out)
+{
+    const stage_wish wish = wish_for(c, 1);
+    stage_wish probe = wish;
+    char message[SCENE_MESSAGE] = "";
+    uint8_t *pictures = malloc(6 * pixels_of(s));
+    uint32_t equal_frames;
+    int ok = pictures != NULL;
+
+    memset(out, 0, sizeof *out);
+    subject_pose(s, 0);
+    probe.light_count = lights;
+    if (stage_plan(s->stage, &probe, message) != 0) {
+        snprintf(out->impossible, sizeof out->impossible, "%s", message);
+        free(pictures);
+        return 1;
+    }
+    for (uint32_t f = 0; ok && f < s->frames; f++)
+        ok = measure_frame(s, c, lights, f, pictures, out, message);
+    equal_frames = out->worst_light;
+    out->worst_light = 0;
+    ok = ok && measure_masks(s, c, lights, out, message) && measure_times(s, c, lights, repeat, out, message);
+    divide(out, s->frames, equal_frames);
+    free(pictures);
+    if (!ok)
+        say("%s: %s", c->name, message[0] ? message : "no memory");
+    return ok;
+}
