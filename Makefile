@@ -55,7 +55,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: all deps demo test truth bench certify boards headers layers asan valgrind size install install-lib format clean help check-build force
+.PHONY: all deps demo test truth bench trade certify boards headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -79,6 +79,12 @@ bench: $(BENCHES) $(SCENES) ## what things cost: counts, and times as remarks; i
 	@$(B)/tests/bench/bench_ranges && $(B)/tests/bench/bench_small && $(B)/tests/bench/bench_roettger && $(B)/tests/bench/bench_refine
 	@sh tests/bench/rebuild.sh $(B) "$(CC)" > build/rebuild.csv && mv build/rebuild.csv tests/bench/rebuild.csv
 	@$(B)/tests/bench/bench_frames > build/frames.csv && mv build/frames.csv tests/bench/frames.csv
+
+trade: $(B)/gnomon $(SCENES) ## the measured trade of docs/trade.md: the demo scene and others, and the rig (some minutes, a quiet machine)
+	@$(PYTHON) tests/scenes/rig.py build/rig
+	@$(B)/gnomon measure $(patsubst %,build/scenes/%.gltf,courtyard colours pile_of_27 slats) -o build/trade --upsample bilinear,depth
+	@$(B)/gnomon measure $(patsubst %,build/rig/rig_%.gltf,600 1600 5000 9700) -o build/rig/trade --scales 1 --lights 1,2,4,8,16 --frames 2 --repeat 5
+	@$(B)/gnomon measure build/rig/rig_600.gltf -o build/rig/trade --scales 1 --lights 1 --frames 2 --repeat 5 --size 160x120,640x480,1024x768
 
 certify: $(B)/gnomon $(SCENES) ## no exact method is wrong along a path round each test scene
 	@$(B)/gnomon measure --certify $$(awk '$$3 != "extreme" {print "build/scenes/" $$1 ".gltf"}' build/scenes/scenes.txt)

@@ -8,6 +8,8 @@
 #include "trial.h"
 #include "truth.h"
 
+#define FULL                                                                                                           \
+    2 /* lights that may be as bright as white together: of more each is less, so that pictures are not all white */
 #define STEP (2.0 * 3.14159265358979323846 / 180.0) /* of the path round the centre, a frame */
 
 /* A camera's axes from where it is and what it looks at: its -z that way, y up. */
@@ -120,6 +122,7 @@ int subject_open(subject *s, const char *file, const camera_path *path, uint32_t
     s->frames = frames;
     s->lights = s->loaded.light_count < most_lights ? (uint32_t)s->loaded.light_count : most_lights;
     if (status == 0) {
+        s->stage->exposure *= s->lights > FULL ? (double)FULL / s->lights : 1.0;
         s->truths = calloc((size_t)frames * s->lights + 1, sizeof *s->truths);
         s->surfaces = malloc((size_t)frames * (s->lights + 1) * bytes);
         if (!s->truths || !s->surfaces) {
