@@ -251,7 +251,7 @@ int trial_run(subject *s, const config *c, uint32_t lights, uint32_t repeat, tri
     subject_pose(s, 0);
     probe.light_count = lights;
     if (stage_plan(s->stage, &probe, message) != 0) {
-        snprintf(out->impossible, sizeof out->impossible, "%s", message);
+        snprintf(out->impossible, sizeof out->impossible, "%.255s", message);
         free(pictures);
         return 1;
     }
