@@ -81,6 +81,8 @@ bench: $(BENCHES) $(SCENES) ## what things cost: counts, and times as remarks; i
 	@$(B)/tests/bench/bench_frames > build/frames.csv && mv build/frames.csv tests/bench/frames.csv
 
 trade: $(B)/gnomon $(SCENES) ## the measured trade of docs/trade.md: the demo scene and others, and the rig (some minutes, a quiet machine)
+	@for spared in "" "--update-every 2" "--update-every 4" "--masks-every 2" "--masks-every 4" "--weld-angle 2" "--weld-angle 10" "--proxy 2000"; do \
+	  $(B)/gnomon measure build/scenes/pile_of_8.gltf -o build/trade/spared --methods stencil --scales 1 --spin 2 --repeat 3 $$spared || exit 1; done
 	@$(PYTHON) tests/scenes/rig.py build/rig
 	@$(B)/gnomon measure $(patsubst %,build/scenes/%.gltf,courtyard colours pile_of_27 slats) -o build/trade --upsample bilinear,depth
 	@$(B)/gnomon measure $(patsubst %,build/rig/rig_%.gltf,600 1600 5000 9700) -o build/rig/trade --scales 1 --lights 1,2,4,8,16 --frames 2 --repeat 5

@@ -38,6 +38,9 @@ const char help_measure[] =
     "                        frame: three numbers for the eye, three for what it looks at [orbit]\n"
     "  --lights LIST         so many of the scene's lights [4, or as many as there are]\n"
     "  --repeat N            of each frame, for its times [1]\n"
+    "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
+    "  --weld-angle, --proxy, --update-every, --update-distance, --masks-every: as of `gnomon render`; their rows'\n"
+    "                        names say so, so that rows with them and without stand in one table\n"
     "  --certify             no table: 0 if no pixel that the truth is certain of is wrong, and none more than two\n"
     "                        pixels from a border, by any method that claims to be exact, in any frame but\n"
     "                        those that its plan warns of\n"
@@ -57,6 +60,9 @@ typedef struct job {
     long lights[MOST_COUNTS];
     int light_counts;
     camera_path path;
+    shortcuts spared;
+    long update_every, masks_every, proxy;
+    char suffix[64]; /* of names: what is spared */
     trade_csv table;
     double started;
     size_t done, skipped, total;          /* rows; of the done those that were there already */
@@ -91,7 +97,7 @@ static int keep_worst(const job *j, subject *s, const char *file, const config *
     snprintf(numbers[0], sizeof numbers[0], "%u", (unsigned)key->width);
     snprintf(numbers[1], sizeof numbers[1], "%u", (unsigned)key->height);
     snprintf(numbers[2], sizeof numbers[2], "%u", (unsigned)key->lights);
-    worst_path(j->directory, file, c->name, numbers[0], numbers[1], numbers[2], path, sizeof path);
+    worst_path(j->directory, file, key->config, numbers[0], numbers[1], numbers[2], path, sizeof path);
     snprintf(list, sizeof list, "%s/worst/commands.txt", j->directory);
     if (!worst_write(s, c, t, path))
         return 0;
@@ -100,16 +106,19 @@ static int keep_worst(const job *j, subject *s, const char *file, const config *
     if (f) {
         fprintf(f, "# %s: frame %u, light %u, %llu pixels\n", strrchr(path, '/') + 1, (unsigned)t->worst_frame,
                 (unsigned)t->worst_light, (unsigned long long)t->worst_wrong);
-        fprintf(
-            f, "gnomon measure '%s' -o again --methods %s%s --scales %u%s%s --size %ux%u --frames %u --lights %u%s%s\n",
-            file, gn_method_describe(c->method)->name, c->one_sided ? "/one-sided" : "", (unsigned)c->scale,
-            c->scale > 1 ? " --upsample " : "",
-            c->scale > 1 ? (c->upsample == GN_UPSAMPLE_DEPTH      ? "depth"
-                            : c->upsample == GN_UPSAMPLE_BILINEAR ? "bilinear"
-                                                                  : "nearest")
-                         : "",
-            (unsigned)key->width, (unsigned)key->height, (unsigned)key->frames, (unsigned)key->lights,
-            j->path.views ? " --camera-path " : "", j->path.views ? j->path_name : "");
+        fprintf(f,
+                "gnomon measure '%s' -o again --methods %s%s --scales %u%s%s --size %ux%u --frames %u --lights %u%s%s",
+                file, gn_method_describe(c->method)->name, c->one_sided ? "/one-sided" : "", (unsigned)c->scale,
+                c->scale > 1 ? " --upsample " : "",
+                c->scale > 1 ? (c->upsample == GN_UPSAMPLE_DEPTH      ? "depth"
+                                : c->upsample == GN_UPSAMPLE_BILINEAR ? "bilinear"
+                                                                      : "nearest")
+                             : "",
+                (unsigned)key->width, (unsigned)key->height, (unsigned)key->frames, (unsigned)key->lights,
+                j->path.views ? " --camera-path " : "", j->path.views ? j->path_name : "");
+        fprintf(f, " --spin %g --weld-angle %g --proxy %ld --update-every %ld --update-distance %g --masks-every %ld\n",
+                j->spared.spin, j->spared.weld_angle, j->proxy, j->update_every, j->spared.cache.update_distance,
+                j->masks_every);
         ok = !ferror(f) && fclose(f) == 0;
     }
     if (!ok)
@@ -120,8 +129,9 @@ static int keep_worst(const job *j, subject *s, const char *file, const config *
 static int run_row(job *j, subject *s, const char *file, const config *c, uint32_t lights)
 {
     const platform *p = s->stage->platform;
+    char name[sizeof c->name + sizeof j->suffix];
     const row_key key = {file,
-                         c->name,
+                         name,
                          j->path.name,
                          (const char *)s->stage->gl->glGetString(GL_RENDERER),
                          p->kind->name,
@@ -132,7 +142,8 @@ static int run_row(job *j, subject *s, const char *file, const config *c, uint32
                          (uint32_t)j->repeat};
     trial t;
 
-    show(j, c->name);
+    snprintf(name, sizeof name, "%s%s", c->name, j->suffix);
+    show(j, name);
     if (!j->certify && trade_has(&j->table, &key)) {
         j->skipped++;
         return 1;
@@ -154,14 +165,16 @@ static int run_row(job *j, subject *s, const char *file, const config *c, uint32
 
 static int run_scene(job *j, const char *file, const uint32_t size[2])
 {
+    subject_desc desc = {file, &j->path,    size[0], size[1],   (uint32_t)j->frames,
+                         0,    j->platform, j->hide, j->spared, trace_progress};
     uint32_t most = 0;
     int status, ok = 1;
     subject s;
 
     for (int i = 0; i < j->light_counts; i++)
         most = most < (uint32_t)j->lights[i] ? (uint32_t)j->lights[i] : most;
-    status = subject_open(&s, file, &j->path, size[0], size[1], (uint32_t)j->frames, most, j->platform, j->hide,
-                          trace_progress);
+    desc.most_lights = most;
+    status = subject_open(&s, &desc);
     if (status != 0)
         return status;
     for (int l = 0; l < j->light_counts && ok; l++)
@@ -236,6 +249,29 @@ static int parse_sizes(job *j)
     if (at)
         say("--size: takes at most %d sizes (%s)", MOST_SIZES, j->sizes_text);
     return !at;
+}
+
+/* What is spared, and its names. */
+static void take_shortcuts(job *j)
+{
+    const struct {
+        const char *name;
+        double value, none;
+    } all[] = {{"spin", j->spared.spin, 0},
+               {"weld", j->spared.weld_angle, 0},
+               {"proxy", (double)j->proxy, 0},
+               {"update", (double)j->update_every, 1},
+               {"moved", j->spared.cache.update_distance, 0},
+               {"masks", (double)j->masks_every, 1}};
+    size_t length = 0;
+
+    j->spared.proxy = (uint32_t)j->proxy;
+    j->spared.cache.update_every = (uint32_t)j->update_every;
+    j->spared.cache.masks_every = (uint32_t)j->masks_every;
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        if (all[i].value != all[i].none && length < sizeof j->suffix)
+            length +=
+                (size_t)snprintf(j->suffix + length, sizeof j->suffix - length, "+%s%g", all[i].name, all[i].value);
 }
 
 static int make_directory(const char *path)
@@ -314,6 +350,8 @@ int command_measure(int count, char **arguments)
              .path_name = "orbit",
              .lights_text = "4",
              .frames = 6,
+             .update_every = 1,
+             .masks_every = 1,
              .repeat = 1};
     const option options[] = {
         {"-o", OPTION_TEXT, &j.directory, 0, 0},
@@ -326,6 +364,12 @@ int command_measure(int count, char **arguments)
         {"--lights", OPTION_TEXT, &j.lights_text, 0, 0},
         {"--repeat", OPTION_WHOLE, &j.repeat, 1, 1000},
         {"--certify", OPTION_FLAG, &j.certify, 0, 0},
+        {"--spin", OPTION_NUMBER, &j.spared.spin, -360, 360},
+        {"--weld-angle", OPTION_NUMBER, &j.spared.weld_angle, 0, 57},
+        {"--proxy", OPTION_WHOLE, &j.proxy, 0, 100000000},
+        {"--update-every", OPTION_WHOLE, &j.update_every, 1, 1000000},
+        {"--update-distance", OPTION_NUMBER, &j.spared.cache.update_distance, 0, 1e12},
+        {"--masks-every", OPTION_WHOLE, &j.masks_every, 1, 1000000},
         {"--platform", OPTION_TEXT, &j.platform, 0, 0},
         {"--hide", OPTION_TEXT, &j.hide, 0, 0},
     };
@@ -341,6 +385,7 @@ int command_measure(int count, char **arguments)
     if (!j.scales)
         j.scales = j.certify ? "1" : "1,2,4"; /* small masks claim nothing */
     snprintf(j.path.name, sizeof j.path.name, "%.63s", j.path_name);
+    take_shortcuts(&j);
     j.light_counts = parse_numbers("--lights", j.lights_text, 1, 64, j.lights, MOST_COUNTS);
     if (j.light_counts > 0 && check_hidden("--hide", j.hide) && parse_sizes(&j) &&
         list_configs(j.methods, j.scales, j.upsamples, &j.configs))

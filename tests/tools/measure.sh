@@ -64,6 +64,13 @@ ok "and keeps what was there" cmp "$tmp/a.txt" "$tmp/b.txt"
 ok "what is impossible says why" sh -c "$gnomon measure $scene -o $tmp/c --size 64x48 --frames 1 --methods refine --scales 2 --hide packed-depth-stencil && \
     grep -q 'packed-depth-stencil, which is hidden' $tmp/c/trade.csv"
 ok "certifies" sh -c "$gnomon measure --certify $scene --size 160x120 --frames 2 | grep -q '^certified: 0 pixels'"
+for late in "" "--update-every 2" "--masks-every 2" "--weld-angle 10"; do
+    # shellcheck disable=SC2086
+    "$gnomon" measure $scene -o "$tmp/late" --size 160x120 --frames 3 --lights 2 --methods count --scales 1 --spin 4 $late > /dev/null 2>&1
+done
+wrong() { column "$tmp/late/trade.csv" "count+spin4$1" wrong; }
+ok "late and welded shadows are farther from the truth" sh -c \
+    "[ $(wrong +weld10) -gt $(wrong "") ] && [ $(wrong +update2) -gt $(wrong "") ] && [ $(wrong +masks2) -gt $(wrong +update2) ]"
 printf '# eye, target\n2.6 2.9 4.6  0 0.4 0\n2.6, 2.9, 4.5, 0, 0.4, 0\n' > "$tmp/path.txt"
 ok "a path from a file" sh -c "$gnomon measure $scene -o $tmp/d --size 64x48 --frames 2 --methods stencil --scales 1 --camera-path $tmp/path.txt"
 printf '1 2 3 4 5\n' > "$tmp/bad.txt"

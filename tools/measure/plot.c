@@ -145,7 +145,7 @@ int plot_trade(const trade_rows *rows, const char *path)
 static const struct {
     const char *column, *label;
 } scales[] = {{"lights", "lights"}, {"faces", "faces of casters"}, {"pixels", "pixels of a frame"}};
-enum { SCALES = sizeof scales / sizeof scales[0] };
+enum { FACES = 1, SCALES = sizeof scales / sizeof scales[0] };
 
 static double scale_of(const trade_rows *rows, size_t row, int scale)
 {
@@ -154,88 +154,117 @@ static double scale_of(const trade_rows *rows, size_t row, int scale)
     return trade_number(rows, row, scales[scale].column);
 }
 
-/* Rows of full masks that differ from the first one in what a panel is of, and in nothing else but for faces: those are of other
- * scenes. */
-static int is_of_scale(const trade_rows *rows, size_t row, size_t first, int scale)
+/* Of full masks, and like the first but for what a panel is of; rows of other faces are of other scenes. */
+static int is_of_panel(const trade_rows *rows, size_t row, size_t first, int scale)
 {
     if (isnan(trade_error(rows, row)) || trade_number(rows, row, "scale") != 1.0)
         return 0;
     for (int other = 0; other < SCALES; other++)
-        if (other != scale && other != 1 && scale_of(rows, row, other) != scale_of(rows, first, other))
+        if (other != scale && other != FACES && scale_of(rows, row, other) != scale_of(rows, first, other))
             return 0;
-    return scale == 1 || strcmp(trade_word(rows, row, "scene"), trade_word(rows, first, "scene")) == 0;
+    return scale == FACES || strcmp(trade_word(rows, row, "scene"), trade_word(rows, first, "scene")) == 0;
 }
 
-/* Of how many values the rows of a panel are. */
-static size_t count_values(const trade_rows *rows, int scale)
+/* Whether a panel starts with the row: it is the first of its kind, and of several values. */
+static int starts_panel(const trade_rows *rows, size_t row, int scale)
 {
-    size_t count = 0;
+    int has_others = 0;
 
     for (size_t i = 0; i < rows->count; i++) {
-        int is_new = is_of_scale(rows, i, 0, scale);
-
-        for (size_t k = 0; k < i && is_new; k++)
-            is_new = !(is_of_scale(rows, k, 0, scale) && scale_of(rows, k, scale) == scale_of(rows, i, scale));
-        count += (size_t)is_new;
+        if (!is_of_panel(rows, i, row, scale))
+            continue;
+        if (i < row)
+            return 0;
+        has_others |= scale_of(rows, i, scale) != scale_of(rows, row, scale);
     }
-    return count;
+    return has_others && is_of_panel(rows, row, row, scale);
 }
 
-static void plot_lines(const trade_rows *rows, FILE *f, int scale)
+static int has_config(const trade_rows *rows, size_t row, size_t like)
 {
+    return strcmp(trade_word(rows, row, "config"), trade_word(rows, like, "config")) == 0;
+}
+
+/* A line of one configuration, by growing values. */
+static void put_line(const trade_rows *rows, FILE *f, size_t first, size_t of, int scale)
+{
+    double last = -INFINITY;
+
+    for (;;) {
+        size_t next = rows->count;
+
+        for (size_t i = of; i < rows->count; i++)
+            if (is_of_panel(rows, i, first, scale) && has_config(rows, i, of) && scale_of(rows, i, scale) > last &&
+                (next == rows->count || scale_of(rows, i, scale) < scale_of(rows, next, scale)))
+                next = i;
+        if (next == rows->count)
+            break;
+        last = scale_of(rows, next, scale);
+        fprintf(f, "%g %g \"", last, trade_number(rows, next, "frame_ms"));
+        put_name(f, trade_word(rows, next, "config"));
+        fprintf(f, "\"\n");
+    }
+}
+
+static void plot_lines(const trade_rows *rows, FILE *f, size_t first, int scale)
+{
+    const char *slash = strrchr(trade_word(rows, first, "scene"), '/');
     size_t lines = 0;
 
-    for (size_t i = 0; i < rows->count; i++) {
-        int is_first = is_of_scale(rows, i, 0, scale);
-        double last = -INFINITY;
+    for (size_t i = first; i < rows->count; i++) {
+        int is_new = is_of_panel(rows, i, first, scale);
 
-        for (size_t k = 0; k < i && is_first; k++)
-            is_first = !(is_of_scale(rows, k, 0, scale) &&
-                         strcmp(trade_word(rows, k, "config"), trade_word(rows, i, "config")) == 0);
-        if (!is_first)
+        for (size_t k = first; k < i && is_new; k++)
+            is_new = !(is_of_panel(rows, k, first, scale) && has_config(rows, k, i));
+        if (!is_new)
             continue;
         fprintf(f, "$line%lu << EOD\n", (unsigned long)lines++);
-        for (;;) {
-            size_t next = rows->count;
-
-            for (size_t k = i; k < rows->count; k++)
-                if (is_of_scale(rows, k, 0, scale) &&
-                    strcmp(trade_word(rows, k, "config"), trade_word(rows, i, "config")) == 0 &&
-                    scale_of(rows, k, scale) > last &&
-                    (next == rows->count || scale_of(rows, k, scale) < scale_of(rows, next, scale)))
-                    next = k;
-            if (next == rows->count)
-                break;
-            last = scale_of(rows, next, scale);
-            fprintf(f, "%g %g \"", last, trade_number(rows, next, "frame_ms"));
-            put_name(f, trade_word(rows, next, "config"));
-            fprintf(f, "\"\n");
-        }
+        put_line(rows, f, first, i, scale);
         fprintf(f, "EOD\n");
     }
+    fprintf(f, "set title '");
+    if (scale == FACES)
+        fprintf(f, "lights: %s", trade_word(rows, first, "lights"));
+    else
+        put_name(f, slash ? slash + 1 : trade_word(rows, first, "scene"));
     fprintf(f,
-            "set title 'ms a frame against %s'\nset xlabel '%s'\nset ylabel 'ms a frame, median'\nset logscale xy\n"
-            "set xrange [*:*]\nset yrange [*:*]\nset key outside right noenhanced font ',10'\nplot ",
-            scales[scale].label, scales[scale].label);
+            "' noenhanced\nset xlabel '%s'\nset ylabel 'ms a frame, median'\nset logscale xy\nset xrange [*:*]\n"
+            "set yrange [*:*]\nset key outside right noenhanced font ',10'\nplot ",
+            scales[scale].label);
     for (size_t i = 0; i < lines; i++)
         fprintf(f, "%s$line%lu using 1:2:(strcol(3)) with linespoints pt 7 ps 0.4 lw 1.5 title word($line%lu[1], 3)",
                 i ? ", " : "", (unsigned long)i, (unsigned long)i);
     fprintf(f, "\n");
 }
 
-int plot_scaling(const trade_rows *rows, const char *path)
+/* Calls for each panel there is, or only counts them. */
+static size_t plot_panels(const trade_rows *rows, FILE *f)
 {
     size_t panels = 0;
+
+    for (int scale = 0; scale < SCALES; scale++) {
+        size_t of_this = 0;
+
+        for (size_t i = 0; i < rows->count; i++)
+            if (starts_panel(rows, i, scale) && (scale != FACES || of_this == 0)) {
+                if (f)
+                    plot_lines(rows, f, i, scale);
+                of_this++;
+            }
+        panels += of_this;
+    }
+    return panels;
+}
+
+int plot_scaling(const trade_rows *rows, const char *path)
+{
+    const size_t panels = plot_panels(rows, NULL);
     plotter p;
 
-    for (int scale = 0; scale < SCALES; scale++)
-        panels += rows->count > 0 && count_values(rows, scale) > 1;
     if (panels == 0)
         return 1;
-    if (!start(&p, path, 1, panels))
+    if (!start(&p, path, 2, (panels + 1) / 2))
         return 0;
-    for (int scale = 0; scale < SCALES; scale++)
-        if (count_values(rows, scale) > 1)
-            plot_lines(rows, p.pipe, scale);
+    plot_panels(rows, p.pipe);
     return finish(&p);
 }

@@ -10,7 +10,8 @@
 
 #define FULL                                                                                                           \
     2 /* lights that may be as bright as white together: of more each is less, so that pictures are not all white */
-#define STEP (2.0 * 3.14159265358979323846 / 180.0) /* of the path round the centre, a frame */
+#define DEGREE (3.14159265358979323846 / 180.0)
+#define STEP   2.0 /* degrees of the path round the centre, a frame */
 
 /* A camera's axes from where it is and what it looks at: its -z that way, y up. */
 static void look_at(double world[16], const double view[6])
@@ -46,13 +47,25 @@ static void turn(double v[3], double angle, const double centre[3], int is_point
 
 void subject_pose(subject *s, uint32_t frame)
 {
+    const double spin = s->spared.spin * frame;
     double *world = s->loaded.camera.world;
 
-    stage_pose(s->stage, frame / 60.0, 0.0);
+    stage_pose(s->stage, frame / 60.0, spin);
+    for (size_t i = 0; i < s->loaded.light_count; i++) { /* of the scene too, which the truth is traced of */
+        turn(s->loaded.lights[i].position, spin * DEGREE, s->stage->centre, 1);
+        turn(s->loaded.lights[i].towards, spin * DEGREE, s->stage->centre, 0);
+    }
     if (s->path->views)
         look_at(world, s->path->views[frame % s->path->count]);
     for (int axis = 0; axis < 4 && !s->path->views; axis++)
-        turn(world + 4 * axis, STEP * frame, s->stage->centre, axis == 3);
+        turn(world + 4 * axis, STEP * DEGREE * frame, s->stage->centre, axis == 3);
+}
+
+int subject_keeps(const subject *s)
+{
+    const gn_shadow_cache_desc *d = &s->spared.cache;
+
+    return d->update_every > 1 || d->update_distance > 0.0 || d->masks_every > 1;
 }
 
 static int trace_frame(subject *s, uint32_t frame, void (*progress)(void), char message[SCENE_MESSAGE])
@@ -101,40 +114,53 @@ static int draw_surfaces(subject *s, uint32_t frame, char message[SCENE_MESSAGE]
     return 1;
 }
 
-int subject_open(subject *s, const char *file, const camera_path *path, uint32_t width, uint32_t height,
-                 uint32_t frames, uint32_t most_lights, const char *platform_name, const char *hide,
-                 void (*progress)(void))
+/* Truth and surfaces of every frame. */
+static int prepare(subject *s, const subject_desc *d, char message[SCENE_MESSAGE])
 {
-    const stage_options options = {
-        .platform = platform_name, .width = width, .height = height, .depth_bits = 24, .stencil_bits = 8, .hide = hide};
+    const size_t bytes = (size_t)3 * d->width * d->height;
+
+    s->frames = d->frames;
+    s->lights = s->loaded.light_count < d->most_lights ? (uint32_t)s->loaded.light_count : d->most_lights;
+    s->stage->exposure *= s->lights > FULL ? (double)FULL / s->lights : 1.0;
+    s->truths = calloc((size_t)s->frames * s->lights + 1, sizeof *s->truths);
+    s->surfaces = malloc((size_t)s->frames * (s->lights + 1) * bytes);
+    if (!s->truths || !s->surfaces) {
+        snprintf(message, SCENE_MESSAGE, "no memory for %lu frames", (unsigned long)s->frames);
+        return EXIT_FAILED;
+    }
+    for (uint32_t f = 0; f < s->frames; f++)
+        if (!trace_frame(s, f, d->progress, message) || !draw_surfaces(s, f, message))
+            return EXIT_FAILED;
+    return EXIT_DONE;
+}
+
+int subject_open(subject *s, const subject_desc *d)
+{
+    const stage_options options = {.platform = d->platform,
+                                   .width = d->width,
+                                   .height = d->height,
+                                   .depth_bits = 24,
+                                   .stencil_bits = 8,
+                                   .hide = d->hide,
+                                   .cache = d->spared.cache,
+                                   .weld_angle = d->spared.weld_angle * DEGREE,
+                                   .proxy_triangles = d->spared.proxy};
     char message[SCENE_MESSAGE] = "";
-    const size_t bytes = (size_t)3 * width * height;
     int status;
 
     memset(s, 0, sizeof *s);
-    if (!scene_load(&s->loaded, file, say_line, message) ||
-        !scene_ensure_view(&s->loaded, (double)width / height, say_line)) {
+    if (!scene_load(&s->loaded, d->file, say_line, message) ||
+        !scene_ensure_view(&s->loaded, (double)d->width / d->height, say_line)) {
         say("%s", message);
         return EXIT_FAILED;
     }
+    s->path = d->path;
+    s->spared = d->spared;
     status = stage_open(&s->stage, &s->loaded, &options, message);
-    s->path = path;
-    s->frames = frames;
-    s->lights = s->loaded.light_count < most_lights ? (uint32_t)s->loaded.light_count : most_lights;
-    if (status == 0) {
-        s->stage->exposure *= s->lights > FULL ? (double)FULL / s->lights : 1.0;
-        s->truths = calloc((size_t)frames * s->lights + 1, sizeof *s->truths);
-        s->surfaces = malloc((size_t)frames * (s->lights + 1) * bytes);
-        if (!s->truths || !s->surfaces) {
-            snprintf(message, sizeof message, "no memory for %lu frames", (unsigned long)frames);
-            status = EXIT_FAILED;
-        }
-    }
-    for (uint32_t f = 0; f < frames && status == 0; f++)
-        if (!trace_frame(s, f, progress, message) || !draw_surfaces(s, f, message))
-            status = EXIT_FAILED;
+    if (status == 0)
+        status = prepare(s, d, message);
     if (status != 0) {
-        say("%s: %s", file, message);
+        say("%s: %s", d->file, message);
         subject_close(s);
     }
     return status;

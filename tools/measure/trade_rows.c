@@ -136,7 +136,7 @@ void trade_panel_name(const trade_rows *rows, size_t panel, char *name, size_t s
         if (rows->of[i].panel == panel) {
             const char *scene_name = trade_word(rows, i, "scene"), *slash = strrchr(scene_name, '/');
 
-            snprintf(name, size, "%s, %sx%s, %s lights", slash ? slash + 1 : scene_name, trade_word(rows, i, "width"),
+            snprintf(name, size, "%s, %sx%s, lights: %s", slash ? slash + 1 : scene_name, trade_word(rows, i, "width"),
                      trade_word(rows, i, "height"), trade_word(rows, i, "lights"));
             return;
         }

@@ -28,6 +28,6 @@ double trade_number(const trade_rows *rows, size_t row, const char *column);    
 double trade_error(const trade_rows *rows, size_t row);
 /* Whether another row of its panel is no worse in both error and the column, and better in one. */
 int trade_is_dominated(const trade_rows *rows, size_t row, const char *column);
-/* "colours.gltf, 320x240, 4 lights" */
+/* "colours.gltf, 320x240, lights: 4" */
 void trade_panel_name(const trade_rows *rows, size_t panel, char *name, size_t size);
 #endif

@@ -12,10 +12,14 @@
 #include "picture.h"
 #include "truth.h"
 
-static stage_wish wish_for(const config *c, int casting)
+static stage_wish wish_for(const subject *s, const config *c, int casting)
 {
-    const stage_wish wish = {
-        .method = c->method, .one_sided = c->one_sided, .casting = casting, .scale = c->scale, .upsample = c->upsample};
+    const stage_wish wish = {.method = c->method,
+                             .one_sided = c->one_sided,
+                             .casting = casting,
+                             .keeps = casting && subject_keeps(s),
+                             .scale = c->scale,
+                             .upsample = c->upsample};
 
     return wish;
 }
@@ -60,7 +64,7 @@ static int measure_times(subject *s, const config *c, uint32_t lights, uint32_t 
 {
     const size_t count = (size_t)s->frames * repeat;
     double *frame = malloc(2 * count * sizeof *frame), *shadow = frame + count;
-    stage_wish with = wish_for(c, 1), without = wish_for(c, 0);
+    stage_wish with = wish_for(s, c, 1), without = wish_for(s, c, 0);
     int ok = frame != NULL;
 
     with.light_count = without.light_count = lights;
@@ -129,7 +133,7 @@ static int measure_frame(subject *s, const config *c, uint32_t lights, uint32_t 
 {
     const uint32_t width = s->stage->target.width, height = s->stage->target.height;
     uint8_t *const right = pictures + 3 * pixels_of(s);
-    stage_wish wish = wish_for(c, 1);
+    stage_wish wish = wish_for(s, c, 1);
     uint64_t fragments, passed;
     gl_counts before, after;
     double psnr;
@@ -164,63 +168,69 @@ static int measure_frame(subject *s, const config *c, uint32_t lights, uint32_t 
     return 1;
 }
 
-/* Each light's mask in each frame. before: [lights] of the frame before. */
+/* One light in one frame: draws its mask and compares it. Into sums. */
+static int measure_mask(subject *s, const config *c, uint32_t light, uint32_t frame, uint8_t *lit, const uint8_t *last,
+                        uint8_t *visible, trial *out, char message[SCENE_MESSAGE])
+{
+    const truth_mask *t = &s->truths[(size_t)frame * s->lights + light];
+    const uint32_t width = s->stage->target.width, height = s->stage->target.height;
+    const mask_pair pair = {width, height, lit, t->lit, t->visible, t->classes};
+    stage_wish wish = wish_for(s, c, 1);
+    uint64_t certain = 0;
+    mask_metrics m;
+
+    wish.first_light = light;
+    wish.light_count = 1;
+    wish.unbounded = 1;
+    subject_pose(s, frame);
+    if (stage_plan(s->stage, &wish, message) != 0 || !stage_draw_mask(s->stage, light, message) ||
+        !read_mask(s->stage, lit, visible) || !mask_measure(&pair, &m))
+        return 0;
+    for (size_t i = 0; i < pixels_of(s); i++)
+        certain += t->classes[i] == TRUTH_CERTAIN && (lit[i] != t->lit[i] || visible[i] != t->visible[i]);
+    out->masks++;
+    out->visible += m.visible;
+    out->wrong += m.wrong;
+    out->interior += m.interior;
+    out->boundary += m.boundary;
+    out->certain_wrong += certain;
+    out->warned += s->stage->plan->warnings != 0;
+    out->unwarned_certain += s->stage->plan->warnings ? 0 : certain;
+    out->unwarned_interior += s->stage->plan->warnings ? 0 : m.interior;
+    out->iou += m.iou;
+    out->precision += m.precision;
+    out->recall += m.recall;
+    out->boundary_f[0] += m.boundary_f[0];
+    out->boundary_f[1] += m.boundary_f[1];
+    out->distance95 += m.distance95;
+    if (frame > 0) {
+        const truth_mask *before = t - s->lights;
+        const mask_pair pair_before = {width, height, last, before->lit, before->visible, NULL};
+
+        out->flicker += mask_flicker(&pair_before, &pair);
+    }
+    if (m.wrong > out->worst_wrong) {
+        out->worst_wrong = m.wrong;
+        out->worst_frame = frame;
+        out->worst_light = light;
+    }
+    return 1;
+}
+
+/* Each light's masks in the order of frames, so that what is kept from one to the next is that light's. */
 static int measure_masks(subject *s, const config *c, uint32_t lights, trial *out, char message[SCENE_MESSAGE])
 {
     const size_t pixels = pixels_of(s);
-    uint8_t *memory = malloc((2 * (size_t)lights + 1) * pixels), *visible = memory + 2 * (size_t)lights * pixels;
-    int ok = memory != NULL;
+    uint8_t *masks = malloc(3 * pixels);
+    int ok = masks != NULL;
 
-    for (uint32_t frame = 0; ok && frame < s->frames; frame++) {
-        subject_pose(s, frame);
-        for (uint32_t light = 0; ok && light < lights; light++) {
-            uint8_t *const lit = memory + ((size_t)light * 2 + frame % 2) * pixels;
-            const uint8_t *const last = memory + ((size_t)light * 2 + 1 - frame % 2) * pixels;
-            const truth_mask *t = &s->truths[(size_t)frame * s->lights + light], *t0 = t - s->lights;
-            const mask_pair pair = {
-                s->stage->target.width, s->stage->target.height, lit, t->lit, t->visible, t->classes};
-            stage_wish wish = wish_for(c, 1);
-            mask_metrics m;
-            uint64_t certain;
-
-            wish.first_light = light;
-            wish.light_count = 1;
-            wish.unbounded = 1;
-            ok = stage_plan(s->stage, &wish, message) == 0 && stage_draw_mask(s->stage, light, message) &&
-                 read_mask(s->stage, lit, visible) && mask_measure(&pair, &m);
-            if (!ok)
-                break;
-            out->masks++;
-            out->visible += m.visible;
-            out->wrong += m.wrong;
-            out->interior += m.interior;
-            out->boundary += m.boundary;
-            out->iou += m.iou;
-            out->precision += m.precision;
-            out->recall += m.recall;
-            out->boundary_f[0] += m.boundary_f[0];
-            out->boundary_f[1] += m.boundary_f[1];
-            out->distance95 += m.distance95;
-            certain = 0;
-            for (size_t i = 0; i < pixels; i++)
-                certain += t->classes[i] == TRUTH_CERTAIN && (lit[i] != t->lit[i] || visible[i] != t->visible[i]);
-            out->certain_wrong += certain;
-            out->warned += s->stage->plan->warnings != 0;
-            out->unwarned_certain += s->stage->plan->warnings ? 0 : certain;
-            out->unwarned_interior += s->stage->plan->warnings ? 0 : m.interior;
-            if (frame > 0) {
-                const mask_pair before = {pair.width, pair.height, last, t0->lit, t0->visible, NULL};
-
-                out->flicker += mask_flicker(&before, &pair);
-            }
-            if (m.wrong > out->worst_wrong) {
-                out->worst_wrong = m.wrong;
-                out->worst_frame = frame;
-                out->worst_light = light;
-            }
-        }
+    for (uint32_t light = 0; ok && light < lights; light++) {
+        ok = stage_renew_cache(s->stage);
+        for (uint32_t frame = 0; ok && frame < s->frames; frame++)
+            ok = measure_mask(s, c, light, frame, masks + frame % 2 * pixels, masks + (frame + 1) % 2 * pixels,
+                              masks + 2 * pixels, out, message);
     }
-    free(memory);
+    free(masks);
     return ok;
 }
 
@@ -240,7 +250,7 @@ static void divide(trial *t, uint32_t frames, uint32_t equal_frames)
 
 int trial_run(subject *s, const config *c, uint32_t lights, uint32_t repeat, trial *out)
 {
-    const stage_wish wish = wish_for(c, 1);
+    const stage_wish wish = wish_for(s, c, 1);
     stage_wish probe = wish;
     char message[SCENE_MESSAGE] = "";
     uint8_t *pictures = malloc(6 * pixels_of(s));
@@ -255,11 +265,13 @@ int trial_run(subject *s, const config *c, uint32_t lights, uint32_t repeat, tri
         free(pictures);
         return 1;
     }
+    ok = ok && stage_renew_cache(s->stage);
     for (uint32_t f = 0; ok && f < s->frames; f++)
         ok = measure_frame(s, c, lights, f, pictures, out, message);
     equal_frames = out->worst_light;
     out->worst_light = 0;
-    ok = ok && measure_masks(s, c, lights, out, message) && measure_times(s, c, lights, repeat, out, message);
+    ok = ok && measure_masks(s, c, lights, out, message) && stage_renew_cache(s->stage) &&
+         measure_times(s, c, lights, repeat, out, message);
     divide(out, s->frames, equal_frames);
     free(pictures);
     if (!ok)

@@ -26,21 +26,39 @@ typedef struct truth_mask {
     uint8_t *lit, *visible, *classes;
 } truth_mask;
 
+/* What is spared, besides method and resolution; and how lights turn, so that it matters. All 0: nothing. */
+typedef struct shortcuts {
+    double spin;       /* degrees a frame, of every light about the vertical axis */
+    double weld_angle; /* degrees */
+    uint32_t proxy;    /* triangles */
+    gn_shadow_cache_desc cache;
+} shortcuts;
+
 typedef struct subject {
     scene loaded;
     stage *stage;
     const camera_path *path;
     uint32_t frames, lights; /* lights: of the scene, or the most that are asked for */
-    truth_mask *truths;      /* [frames][lights] */
-    uint8_t *surfaces; /* [frames][lights + 1][pixels][3]: ambient light alone, and with it each light, unshadowed */
+    shortcuts spared;
+    truth_mask *truths; /* [frames][lights] */
+    uint8_t *surfaces;  /* [frames][lights + 1][pixels][3]: ambient light alone, and with it each light, unshadowed */
 } subject;
 
-/* 0, or an exit status of the command, having said why. progress is called before each truth. */
-int subject_open(subject *s, const char *file, const camera_path *path, uint32_t width, uint32_t height,
-                 uint32_t frames, uint32_t most_lights, const char *platform_name, const char *hide,
-                 void (*progress)(void));
+/* How to open one. */
+typedef struct subject_desc {
+    const char *file;
+    const camera_path *path;
+    uint32_t width, height, frames, most_lights;
+    const char *platform, *hide; /* NULL: the first that works; nothing */
+    shortcuts spared;
+    void (*progress)(void); /* called before each truth is traced */
+} subject_desc;
+
+/* 0, or an exit status of the command, having said why. */
+int subject_open(subject *s, const subject_desc *desc);
 void subject_close(subject *s);
 void subject_pose(subject *s, uint32_t frame);
+int subject_keeps(const subject *s); /* whether something is kept from frame to frame */
 
 /* Median, and what one in twenty is below and above. */
 typedef struct spread_ms {

@@ -38,6 +38,7 @@ int worst_write(subject *s, const config *c, const trial *t, const char *path)
     const stage_wish wish = {.method = c->method,
                              .one_sided = c->one_sided,
                              .casting = 1,
+                             .keeps = subject_keeps(s),
                              .first_light = t->worst_light,
                              .light_count = 1,
                              .unbounded = 1,
@@ -48,8 +49,9 @@ int worst_write(subject *s, const config *c, const trial *t, const char *path)
     char message[SCENE_MESSAGE] = "no memory";
     int ok = lit && picture;
 
-    if (ok) {
-        subject_pose(s, t->worst_frame);
+    ok = ok && stage_renew_cache(s->stage);
+    for (uint32_t frame = wish.keeps ? 0 : t->worst_frame; ok && frame <= t->worst_frame; frame++) {
+        subject_pose(s, frame);
         ok = stage_plan(s->stage, &wish, message) == 0 && stage_draw_mask(s->stage, t->worst_light, message) &&
              read_mask(s->stage, lit, lit + pixels);
     }

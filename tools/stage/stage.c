@@ -110,7 +110,8 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
         snprintf(message, SCENE_MESSAGE, "stage: no memory");
         return refuse(out, s, 1);
     }
-    result = gn_shadow_cache_create(s->context, &options->cache, &s->cache);
+    s->cache_desc = options->cache;
+    result = gn_shadow_cache_create(s->context, &s->cache_desc, &s->cache);
     if (result == GN_OK)
         result = gn_gles_create(s->context, &desc, &s->gles);
     if (result == GN_OK)
@@ -139,6 +140,12 @@ void stage_close(stage *s)
     gn_context_destroy(s->context);
     platform_close(s->platform);
     free(s);
+}
+
+int stage_renew_cache(stage *s)
+{
+    gn_shadow_cache_destroy(s->cache);
+    return gn_shadow_cache_create(s->context, &s->cache_desc, &s->cache) == GN_OK;
 }
 
 /* About the vertical axis through the scene's centre. */

@@ -81,6 +81,7 @@ typedef struct stage {
     double finite_far;      /* as in the options */
     int shader_refused;     /* a surface was left out because the GL refuses its shader */
     gn_shadow_cache *cache;
+    gn_shadow_cache_desc cache_desc;
     double weld_angle;
     uint32_t proxy_triangles;
     void *plan_memory;
@@ -108,6 +109,9 @@ typedef struct stage_options {
  * is then NULL. The scene stays the caller's and must outlive the stage. */
 int stage_open(stage **out, scene *s, const stage_options *options, char message[SCENE_MESSAGE]);
 void stage_close(stage *s);
+
+/* Forgets what shadows were kept. 1, or 0 without memory. */
+int stage_renew_cache(stage *s);
 
 /* Poses scene, lights and camera: seconds into the animation, the lights turned about the vertical axis through the
  * centre. */
