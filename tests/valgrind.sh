@@ -9,7 +9,7 @@ check() {
         { cat "$build/valgrind.log"; exit 1; }
 }
 set -e
-for test in "$build"/tests/core/test_* "$build"/tests/gltf/test_gltf "$build"/tests/gltf/test_gltf_scene "$build"/tests/gles/test_walk "$build"/tests/extremes/test_numbers; do
+for test in "$build"/tests/core/test_* "$build"/tests/gltf/test_gltf "$build"/tests/gltf/test_gltf_scene "$build"/tests/gles/test_walk "$build"/tests/extremes/test_numbers "$build"/tests/measure/test_metrics; do
     case $test in *.d|*.o|*test_laws) continue ;; esac
     check "$test"
 done
@@ -17,5 +17,9 @@ export GALLIUM_DRIVER=softpipe
 for scene in cube_point soup ortho; do
     check "$build/gnomon" render "build/scenes/$scene.gltf" --size 64x48 -o "$build/valgrind.png" --mask-dir "$build/valgrind" --report "$build/valgrind.json"
 done
+check "$build/gnomon" render build/scenes/cube_point.gltf --size 64x48 -o "$build/valgrind.png" --method refine
+check "$build/gnomon" render build/scenes/cube_point.gltf --size 64x48 -o "$build/valgrind.png" --method count --scale 2 --upsample depth \
+    --sharpen --masks-every 2 --frames 3
+check "$build/gnomon" measure build/scenes/cube_point.gltf --size 64x48 -o "$build/valgrind" --methods stencil,refine --scales 1,2 --frames 2
 rm -rf "$build/valgrind" "$build/valgrind.png" "$build/valgrind.json" "$build/valgrind.log" "$build/keep_open.so"
 echo "valgrind: clean"
