@@ -219,6 +219,8 @@ gn_result gni_add_passes(gni_draft *d);
 void gni_add_surfaces(gni_draft *d);
 /* What a light under a stencil or alpha adds, before the next one's mask. */
 void gni_add_own_passes(gni_draft *d, uint32_t light);
+/* Takes back the steps that were to make masks, and their image: no light has a shadow. */
+void gni_need_no_masks(gni_draft *d, uint32_t first_step);
 /* The steps before the first light of a mask texture. */
 void gni_start_mask(gni_draft *d);
 

@@ -121,6 +121,15 @@ void gni_start_mask(gni_draft *d)
     }
 }
 
+void gni_need_no_masks(gni_draft *d, uint32_t first_step)
+{
+    static const gn_image none = {GN_FORMAT_NONE, 0, 0};
+
+    d->plan->step_count = first_step;
+    d->plan->image = none;
+    d->plan->carries_depth = 0;
+}
+
 /* All masks are made: then the frame, where it is not there already. */
 static void end_masks(gni_draft *d, uint32_t first_step)
 {
@@ -129,11 +138,7 @@ static void end_masks(gni_draft *d, uint32_t first_step)
 
     d->plan->mask_count = (d->mask_count + d->choice.lights_per_mask - 1) / d->choice.lights_per_mask;
     if (d->mask_count == 0) { /* none was needed */
-        static const gn_image none = {GN_FORMAT_NONE, 0, 0};
-
-        d->plan->step_count = first_step;
-        d->plan->image = none;
-        d->plan->carries_depth = 0;
+        gni_need_no_masks(d, first_step);
         add(d, GN_STEP_CLEAR);
         gni_add_surfaces(d);
         return;

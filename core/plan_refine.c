@@ -29,17 +29,12 @@ void gni_refine(gni_draft *d, uint32_t first_step)
 {
     static const gni_stain clean = {{0, 0, 0, 0}, 0};
     const uint32_t end = d->plan->step_count;
-    uint32_t first = first_step;
 
     d->is_refining = 1;
     d->stain = clean;
     d->stain.reference = d->choice.stencil.reference;
-    if (d->mask_count == 0) { /* none was needed */
-        static const gn_image none = {GN_FORMAT_NONE, 0, 0};
-
-        d->plan->step_count = first_step;
-        d->plan->image = none;
-        d->plan->carries_depth = 0;
+    if (d->mask_count == 0) {
+        gni_need_no_masks(d, first_step);
     } else {
         d->plan->mask_count = 1 + (d->mask_count + d->choice.lights_per_mask - 1) / d->choice.lights_per_mask;
         if (gn_target_can(&d->scene->target, GN_CAN_DISCARD))
@@ -52,7 +47,7 @@ void gni_refine(gni_draft *d, uint32_t first_step)
             continue;
         if (d->lights[light].is_shadowed) {
             gni_add_step(d, GN_STEP_REFINE, GN_DRAW_NOTHING, light, 0);
-            count_again(d, light, first, end);
+            count_again(d, light, first_step, end);
             gni_stain_stencil(d, light);
         } else {
             gni_clean_stencil(d, light);

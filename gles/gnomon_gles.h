@@ -15,8 +15,8 @@
  * surface computes its position by GN_GLSL_POSITION, from vertices less the mesh's centre (gn_mesh_info.centre), with
  * gn_plan_object.matrix.
  *
- * In a light's passes only objects need be drawn whose gn_plan_caster.is_lit says so. Masks in textures have the target's
- * size, and a light in each channel: GN_GLSL_MASK_VERTEX and GN_GLSL_MASK_FRAGMENT read them.
+ * In a light's passes only objects need be drawn whose gn_plan_caster.is_lit says so. Masks in textures have gn_plan.mask_size,
+ * and a light in each channel: GN_GLSL_MASK_VERTEX and GN_GLSL_MASK_FRAGMENT read them.
  *
  * GL state. Between gn_gles_begin() and the end of the walk the host may change anything but the bound framebuffer.
  *

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "command.h"
+#include "worst.h"
 
 static const char head[] =
     "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
@@ -201,30 +202,6 @@ static void put_table(FILE *f, const trade_rows *rows)
     for (size_t i = 0; i < rows->count; i++)
         put_row(f, rows, i);
     fputs("</tbody></table></div>\n", f);
-}
-
-/* As part of a file's name. */
-static void make_plain(char *name)
-{
-    for (char *c = name; *c; c++)
-        if (strchr("/@ \"'", *c))
-            *c = '-';
-}
-
-void worst_path(const char *directory, const char *scene_file, const char *config_name, const char *width,
-                const char *height, const char *lights, char *path, size_t size)
-{
-    const char *slash = strrchr(scene_file, '/');
-    char of_scene[64], of_config[64], *dot;
-
-    snprintf(of_scene, sizeof of_scene, "%s", slash ? slash + 1 : scene_file);
-    dot = strrchr(of_scene, '.');
-    if (dot)
-        *dot = '\0';
-    snprintf(of_config, sizeof of_config, "%s", config_name);
-    make_plain(of_scene);
-    make_plain(of_config);
-    snprintf(path, size, "%s/worst/%s-%s-%sx%s-%s.png", directory, of_scene, of_config, width, height, lights);
 }
 
 static void put_worst(FILE *f, const trade_rows *rows, const char *directory)

@@ -6,8 +6,4 @@
 /* The board's facts, the pictures in `directory` (trade.svg, scaling.svg, if they are there), the table, which is sorted by a
  * click on a column's head, and the worst mask of each row. 1, or 0 having said why. */
 int page_write(const trade_rows *rows, const char *directory);
-
-/* Where the worst mask of a row is, under its directory. */
-void worst_path(const char *directory, const char *scene_file, const char *config_name, const char *width,
-                const char *height, const char *lights, char *path, size_t size);
 #endif

@@ -63,9 +63,9 @@ static int measure_times(subject *s, const config *c, uint32_t lights, uint32_t 
                          char message[SCENE_MESSAGE])
 {
     const size_t count = (size_t)s->frames * repeat;
-    double *frame = malloc(2 * count * sizeof *frame), *shadow = frame + count;
+    double *frame = malloc(count * sizeof *frame), *shadow = malloc(count * sizeof *shadow);
     stage_wish with = wish_for(s, c, 1), without = wish_for(s, c, 0);
-    int ok = frame != NULL;
+    int ok = frame && shadow;
 
     with.light_count = without.light_count = lights;
     for (size_t i = 0; ok && i < count + 1; i++) {
@@ -82,6 +82,7 @@ static int measure_times(subject *s, const config *c, uint32_t lights, uint32_t 
         out->shadow = spread_of(shadow, count);
     }
     free(frame);
+    free(shadow);
     return ok;
 }
 
@@ -162,7 +163,7 @@ static int measure_frame(subject *s, const config *c, uint32_t lights, uint32_t 
     put_right_picture(s, frame, lights, right);
     psnr = image_psnr(pictures, right, width, height);
     out->psnr += isinf(psnr) ? 0.0 : psnr;
-    out->worst_light += isinf(psnr) ? 1 : 0; /* for now: frames without a difference */
+    out->equal_frames += isinf(psnr) ? 1 : 0;
     out->ssim += image_ssim(pictures, right, width, height);
     out->flip += image_flip(pictures, right, width, height);
     return 1;
@@ -234,7 +235,7 @@ static int measure_masks(subject *s, const config *c, uint32_t lights, trial *ou
     return ok;
 }
 
-static void divide(trial *t, uint32_t frames, uint32_t equal_frames)
+static void divide(trial *t, uint32_t frames)
 {
     double *const of_frames[] = {&t->fragments,  &t->vertices, &t->indices, &t->draws,
                                  &t->bytes_sent, &t->traffic,  &t->ssim,    &t->flip};
@@ -245,7 +246,7 @@ static void divide(trial *t, uint32_t frames, uint32_t equal_frames)
         *of_frames[i] /= frames;
     for (size_t i = 0; i < sizeof of_masks / sizeof of_masks[0] && t->masks; i++)
         *of_masks[i] /= t->masks;
-    t->psnr = equal_frames < frames ? t->psnr / (frames - equal_frames) : INFINITY;
+    t->psnr = t->equal_frames < frames ? t->psnr / (frames - t->equal_frames) : INFINITY;
 }
 
 int trial_run(subject *s, const config *c, uint32_t lights, uint32_t repeat, trial *out)
@@ -254,7 +255,6 @@ int trial_run(subject *s, const config *c, uint32_t lights, uint32_t repeat, tri
     stage_wish probe = wish;
     char message[SCENE_MESSAGE] = "";
     uint8_t *pictures = malloc(6 * pixels_of(s));
-    uint32_t equal_frames;
     int ok = pictures != NULL;
 
     memset(out, 0, sizeof *out);
@@ -268,11 +268,9 @@ int trial_run(subject *s, const config *c, uint32_t lights, uint32_t repeat, tri
     ok = ok && stage_renew_cache(s->stage);
     for (uint32_t f = 0; ok && f < s->frames; f++)
         ok = measure_frame(s, c, lights, f, pictures, out, message);
-    equal_frames = out->worst_light;
-    out->worst_light = 0;
     ok = ok && measure_masks(s, c, lights, out, message) && stage_renew_cache(s->stage) &&
          measure_times(s, c, lights, repeat, out, message);
-    divide(out, s->frames, equal_frames);
+    divide(out, s->frames);
     free(pictures);
     if (!ok)
         say("%s: %s", c->name, message[0] ? message : "no memory");

@@ -80,6 +80,7 @@ typedef struct trial {
     uint64_t warned, unwarned_certain, unwarned_interior;
     double iou, precision, recall, boundary_f[2], distance95;
     double psnr, ssim, flip; /* means over frames; of psnr over those that differ, INFINITY where none does */
+    uint32_t equal_frames;   /* that look as they ought to, to the last level */
     uint32_t worst_frame, worst_light;
     uint64_t worst_wrong;
 } trial;

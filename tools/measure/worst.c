@@ -7,6 +7,30 @@
 #include "command.h"
 #include "picture.h"
 
+/* As part of a file's name. */
+static void make_plain(char *name)
+{
+    for (char *c = name; *c; c++)
+        if (strchr("/@ \"'", *c))
+            *c = '-';
+}
+
+void worst_path(const char *directory, const char *scene_file, const char *config_name, const char *width,
+                const char *height, const char *lights, char *path, size_t size)
+{
+    const char *slash = strrchr(scene_file, '/');
+    char of_scene[64], of_config[64], *dot;
+
+    snprintf(of_scene, sizeof of_scene, "%s", slash ? slash + 1 : scene_file);
+    dot = strrchr(of_scene, '.');
+    if (dot)
+        *dot = '\0';
+    snprintf(of_config, sizeof of_config, "%s", config_name);
+    make_plain(of_scene);
+    make_plain(of_config);
+    snprintf(path, size, "%s/worst/%s-%s-%sx%s-%s.png", directory, of_scene, of_config, width, height, lights);
+}
+
 static void put_mask(uint8_t *row, const uint8_t *lit, const uint8_t *visible, uint32_t width)
 {
     static const uint8_t white[3] = {235, 235, 235}, dark[3] = {45, 45, 45}, blue[3] = {25, 40, 90};
