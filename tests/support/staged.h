@@ -14,6 +14,6 @@ void staged_open(staged *t, const char *name, uint32_t width, uint32_t height);
 void staged_open_as(staged *t, const char *name, const stage_options *options);
 void staged_close(staged *t);
 
-/* The plan's first mask texture: [mask_size[1]][mask_size[0]][4], row 0 on top. The caller frees it. */
+/* A mask texture of the plan: [mask_size[1]][mask_size[0]][4], row 0 on top. The caller frees it. */
 uint8_t *staged_read_mask(staged *t, uint32_t mask);
 #endif
