@@ -5,22 +5,16 @@
 #include <stdlib.h>
 
 #include "command.h"
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
+#include "spread.h"
 
 static void add_timing(cJSON *to, const char *name, double *ms, size_t count)
 {
     cJSON *const o = cJSON_AddObjectToObject(to, name);
+    const spread over = spread_of(ms, count);
 
-    qsort(ms, count, sizeof *ms, by_value);
-    cJSON_AddNumberToObject(o, "median", ms[count / 2]);
-    cJSON_AddNumberToObject(o, "p5", ms[count * 5 / 100]);
-    cJSON_AddNumberToObject(o, "p95", ms[count - 1 - count * 5 / 100]);
+    cJSON_AddNumberToObject(o, "median", over.median);
+    cJSON_AddNumberToObject(o, "p5", over.p5);
+    cJSON_AddNumberToObject(o, "p95", over.p95);
 }
 
 static void add_target(cJSON *root, const gn_target *t)

@@ -17,6 +17,7 @@
 #include "gnomon_gles.h"
 #include "pile.h"
 #include "platform.h"
+#include "spread.h"
 
 enum { FRAMES = 25, WAYS = 3, MEASURES = 6 };
 static const unsigned measures[MEASURES] = {
@@ -271,13 +272,6 @@ static void stop_watch(moment start, double *processor, double *wall)
 
     *processor = now.processor - start.processor;
     *wall = now.wall - start.wall;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
 }
 
 /* Sums fragments of volumes over the frame just drawn; and pixels where a surface is. */

@@ -8,8 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "processor.h"
+#include "spread.h"
 #include "stage.h"
 
 #define WIDTH  640
@@ -29,32 +30,17 @@ static const struct {
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-static double now_ms(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
 static int draw(stage *s, int way, double *ms, char message[SCENE_MESSAGE])
 {
     const stage_wish wish = {
         .method = ways[way].method, .casting = 1, .light_count = s->light_count, .merges_lights = ways[way].merges};
-    const double start = now_ms();
+    const double start = processor_ms();
 
     s->target.hidden = ways[way].hidden;
     if (stage_plan(s, &wish, message) != 0 || !stage_draw_lit(s, 0, message))
         return 0;
     s->gl->glFinish();
-    *ms = now_ms() - start;
+    *ms = processor_ms() - start;
     return 1;
 }
 

@@ -11,6 +11,7 @@
 
 #include "gnomon_gles.h"
 #include "platform.h"
+#include "spread.h"
 
 enum { RUNS = 21 };
 
@@ -63,13 +64,6 @@ static double now_ms(void)
 
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
 }
 
 /* What no proof is to blame for: a driver's first draw of all. */

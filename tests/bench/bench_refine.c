@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "spread.h"
 #include "stage.h"
 
 enum { WIDTH = 320, HEIGHT = 240, BYTES = 4 * WIDTH * HEIGHT, MOST = 512, LIGHTS = 5 };
@@ -41,13 +42,6 @@ static unsigned long count_differing(const uint8_t *a, const uint8_t *b)
     for (int i = 0; i < BYTES; i += 4)
         count += (a[i] > 127) != (b[i] > 127);
     return count;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
 }
 
 static int measure(stage *s, const char *name, uint32_t light, totals *t, char message[SCENE_MESSAGE])

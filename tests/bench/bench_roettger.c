@@ -9,8 +9,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "processor.h"
+#include "spread.h"
 #include "stage.h"
 
 enum { FRAMES = 15, WAYS = 5, SIZES = 3 };
@@ -29,21 +30,6 @@ static const struct {
 static const double his[SIZES][WAYS] = {
     {40.8, 42.4, 42.4, 39.1, 90.4}, {29.9, 33.6, 29.1, 30.5, 89.2}, {9.3, 10.2, 8.9, 15.7, 44.6}};
 
-static double now_ms(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
 static int draw(stage *s, int way, double *ms, char message[SCENE_MESSAGE])
 {
     const stage_wish wish = {.method = ways[way].method,
@@ -52,12 +38,12 @@ static int draw(stage *s, int way, double *ms, char message[SCENE_MESSAGE])
                              .shade = GN_SHADE_ATTENUATE,
                              .scale = ways[way].scale,
                              .upsample = GN_UPSAMPLE_BILINEAR};
-    const double start = now_ms();
+    const double start = processor_ms();
 
     if (stage_plan(s, &wish, message) != 0 || !stage_draw_lit(s, 0, message))
         return 0;
     s->gl->glFinish();
-    *ms = now_ms() - start;
+    *ms = processor_ms() - start;
     return 1;
 }
 

@@ -8,11 +8,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "device.h"
 #include "gn_matrix.h"
 #include "plain_host.h"
+#include "processor.h"
+#include "spread.h"
 
 enum { WIDTH = 1024, HEIGHT = 768, FRAMES = 9, MOST_LAYERS = 64, SCALES = 3 };
 
@@ -74,18 +75,10 @@ static int make_scene(bench *b)
     return 1;
 }
 
-static double now_ms(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-    return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
-}
-
 static int draw(bench *b, gn_method method, uint32_t scale, double *ms)
 {
     const gn_plan *plan;
-    const double start = now_ms();
+    const double start = processor_ms();
     size_t size;
 
     b->scene.scale = scale;
@@ -101,15 +94,8 @@ static int draw(bench *b, gn_method method, uint32_t scale, double *ms)
         !plain_host_draw(&b->host, plan, 0.8f))
         return fprintf(stderr, "bench_small: %s\n", gn_message(b->device.context)), 0;
     b->device.gl->glFinish();
-    *ms = now_ms() - start;
+    *ms = processor_ms() - start;
     return 1;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
 }
 
 static int run(bench *b, gn_method method, uint32_t layers)

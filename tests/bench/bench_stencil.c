@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "counted_gl.h"
+#include "spread.h"
 #include "stage.h"
 
 enum { WIDTH = 320, HEIGHT = 240, MOST = 200, COUNTS = 6 };
@@ -78,13 +79,6 @@ static void print(const row *r)
     for (int c = 0; c < COUNTS; c++)
         printf(",%llu,%llu", (unsigned long long)r->zfail[c], (unsigned long long)r->stencil[c]);
     printf("\n");
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
 }
 
 static double median(double *ratios, int n)

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "gn_test.h"
+#include "spread.h"
 #include "staged.h"
 
 #define WIDTH  320
@@ -62,13 +63,6 @@ static uint64_t count_fragments(int contested)
     assert_true(stage_count_fragments(drawn.stage, &rasterised, &passed));
     gl->glDisable(GL_STENCIL_TEST);
     return rasterised;
-}
-
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
 }
 
 /* Of each mask at scale 2 at most a tenth of bilinear's wrong pixels are wrong, of all together at most a fiftieth; and of

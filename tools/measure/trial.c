@@ -29,24 +29,6 @@ static size_t pixels_of(const subject *s)
     return (size_t)s->stage->target.width * s->stage->target.height;
 }
 
-static int by_value(const void *a, const void *b)
-{
-    const double x = *(const double *)a, y = *(const double *)b;
-
-    return (x > y) - (x < y);
-}
-
-static spread_ms spread_of(double *ms, size_t count)
-{
-    spread_ms out;
-
-    qsort(ms, count, sizeof *ms, by_value);
-    out.median = ms[count / 2];
-    out.p5 = ms[count / 20];
-    out.p95 = ms[count - 1 - count / 20];
-    return out;
-}
-
 static int draw_timed(stage *st, const stage_wish *wish, double *ms, char message[SCENE_MESSAGE])
 {
     const double start = now_ms();

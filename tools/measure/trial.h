@@ -4,6 +4,7 @@
  * traced once and kept; a configuration is a way to make shadows; a trial runs one on the other. */
 #ifndef TRIAL_H
 #define TRIAL_H
+#include "spread.h"
 #include "stage.h"
 
 typedef struct config {
@@ -60,17 +61,12 @@ void subject_close(subject *s);
 void subject_pose(subject *s, uint32_t frame);
 int subject_keeps(const subject *s); /* whether something is kept from frame to frame */
 
-/* Median, and what one in twenty is below and above. */
-typedef struct spread_ms {
-    double median, p5, p95;
-} spread_ms;
-
 typedef struct trial {
     char impossible[256]; /* why it cannot run here; else "" */
     char warning[256];    /* of the plan; or "" */
     uint32_t masks;       /* that were compared: frames times lights */
     uint32_t casters, faces;
-    spread_ms frame, shadow;
+    spread frame, shadow; /* ms */
     /* of all frames together, a frame on average */
     double fragments, vertices, indices, draws, bytes_sent, traffic;
     double memory; /* bytes of images and masks, and of the plan */
