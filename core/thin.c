@@ -9,18 +9,19 @@
 
 #define LEAST 3.0 /* pixels of a mask */
 
-/* The least width of eight points of a box on a plane: across one of the three edges from its first corner, whose images
- * the others are nearly parallel to unless the box is close. */
+/* The least width of the image of a box, of which points[i] and points[i | 1 << k] are an edge's ends: the least of a convex
+ * outline is across one of its edges, and they are images of the box's. */
 static double width_of(double points[8][2])
 {
     double least = INFINITY;
 
-    for (int edge = 0; edge < 3; edge++) {
-        const double *first = points[0], *last = points[1 << edge];
-        const double across[2] = {first[1] - last[1], last[0] - first[0]}, length = hypot(across[0], across[1]);
+    for (int edge = 0; edge < 24; edge++) {
+        const int from = edge & 7, to = from | 1 << (edge >> 3);
+        const double across[2] = {points[from][1] - points[to][1], points[to][0] - points[from][0]};
+        const double length = hypot(across[0], across[1]);
         double low = INFINITY, high = -INFINITY;
 
-        if (length == 0.0)
+        if (length == 0.0) /* of no length, or no edge: both ends are the same */
             continue;
         for (int i = 0; i < 8; i++) {
             const double at = (across[0] * points[i][0] + across[1] * points[i][1]) / length;

@@ -269,6 +269,36 @@ static void thin_is_told_in_every_place(void **state)
     staged_close(&drawn);
 }
 
+/* A law, by plans alone: how thin a square is that is seen from its side does not depend on which corner is its first. */
+static void thin_is_the_same_for_every_corner(void **state)
+{
+    static const double at_origin[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    static const double turns[4][2] = {{0.8, 0.6}, {-0.6, 0.8}, {-0.8, -0.6}, {0.6, -0.8}};
+    int thin = 0, wide = 0;
+
+    (void)state;
+    staged_open(&drawn, "fence", WIDTH, HEIGHT);
+    memcpy(drawn.loaded.camera.world, at_origin, sizeof at_origin);
+    for (int step = 1; step <= 200; step++) {
+        int count = 0;
+
+        for (int turn = 0; turn < 4; turn++) { /* the floor, 8 across, by quarters */
+            const double c = turns[turn][0], s = turns[turn][1];
+            const double model[16] = {c, 0, -s, 0, 0, 1, 0, 0, s, 0, c, 0, 0.5, -0.002 * step, -8, 1};
+
+            memcpy(drawn.loaded.instances[0].world, model, sizeof model);
+            plan_refined(GN_SHADE_ADDITIVE);
+            count += drawn.stage->plan->objects[0].thin;
+        }
+        if (count % 4 != 0)
+            fail_msg("%.3f below the eye it is thin in %d of 4 turns", 0.002 * step, count);
+        thin += count == 4;
+        wide += count == 0;
+    }
+    assert_true(thin > 20 && wide > 20);
+    staged_close(&drawn);
+}
+
 static void what_it_lacks_is_named(void **state)
 {
     const stage_wish wish = {.method = GN_METHOD_REFINE, .casting = 1, .light_count = 1};
@@ -290,6 +320,7 @@ int main(void)
                                        cmocka_unit_test(nothing_thin_is_darkened),
                                        cmocka_unit_test(it_goes_with_the_rest),
                                        cmocka_unit_test(thin_is_told_in_every_place),
+                                       cmocka_unit_test(thin_is_the_same_for_every_corner),
                                        cmocka_unit_test(what_it_lacks_is_named)};
 
     return cmocka_run_group_tests_name("refine", tests, NULL, NULL);
