@@ -34,7 +34,7 @@ measure() { # directory, further options
 }
 # The rows' columns before those of the clock.
 figures() { "$python" -c 'import csv,sys
-for r in csv.DictReader(open(sys.argv[1])): print([v for k,v in r.items() if not k.split("_p")[0].endswith("_ms")])' "$1"; }
+for r in csv.DictReader(open(sys.argv[1])): print([v for k,v in r.items() if not k.split("_p")[0].endswith("_ms") and k != "clock"])' "$1"; }
 rows() { "$python" -c 'import csv,sys; print(len(list(csv.DictReader(open(sys.argv[1])))))' "$1"; }
 column() { "$python" -c 'import csv,sys
 print(max(r[sys.argv[3]] for r in csv.DictReader(open(sys.argv[1])) if r["config"] == sys.argv[2]))' "$1" "$2" "$3"; } # the greatest

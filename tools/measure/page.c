@@ -49,6 +49,7 @@ static const struct {
     {"frame_ms_p5", "5 %", "%.2f", 1},
     {"frame_ms_p95", "95 %", "%.2f", 1},
     {"shadow_ms", "shadow ms", "%.2f", 1},
+    {"plan_ms", "plan ms", "%.2f", 1},
     {"wrong", "wrong", "%.0f", 1},
     {"wrong_certain", "certain", "%.0f", 1},
     {"interior", "interior", "%.0f", 1},

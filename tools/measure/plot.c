@@ -141,17 +141,25 @@ int plot_trade(const trade_rows *rows, const char *path)
     return finish(&p);
 }
 
-/* What times are drawn against. */
+/* What times are drawn against, and which. */
 static const struct {
-    const char *column, *label;
-} scales[] = {{"lights", "lights"}, {"faces", "faces of casters"}, {"pixels", "pixels of a frame"}};
-enum { FACES = 1, SCALES = sizeof scales / sizeof scales[0] };
+    const char *column, *label, *time, *time_label;
+} scales[] = {{"lights", "lights", "frame_ms", "ms a frame, median"},
+              {"faces", "faces of casters", "frame_ms", "ms a frame, median"},
+              {"pixels", "pixels of a frame", "frame_ms", "ms a frame, median"},
+              {"faces", "faces of casters", "plan_ms", "ms of it for planning, median"}};
+enum { LIGHTS, FACES, PIXELS, PLANNING, SCALES };
 
 static double scale_of(const trade_rows *rows, size_t row, int scale)
 {
-    if (scale == 2)
+    if (scale == PIXELS)
         return trade_number(rows, row, "width") * trade_number(rows, row, "height");
     return trade_number(rows, row, scales[scale].column);
+}
+
+static int is_by_faces(int scale)
+{
+    return scale == FACES || scale == PLANNING;
 }
 
 /* Of full masks, and like the first but for what a panel is of; rows of other faces are of other scenes. */
@@ -159,10 +167,10 @@ static int is_of_panel(const trade_rows *rows, size_t row, size_t first, int sca
 {
     if (isnan(trade_error(rows, row)) || trade_number(rows, row, "scale") != 1.0)
         return 0;
-    for (int other = 0; other < SCALES; other++)
-        if (other != scale && other != FACES && scale_of(rows, row, other) != scale_of(rows, first, other))
+    for (int other = LIGHTS; other <= PIXELS; other += PIXELS - LIGHTS)
+        if (other != scale && scale_of(rows, row, other) != scale_of(rows, first, other))
             return 0;
-    return scale == FACES || strcmp(trade_word(rows, row, "scene"), trade_word(rows, first, "scene")) == 0;
+    return is_by_faces(scale) || strcmp(trade_word(rows, row, "scene"), trade_word(rows, first, "scene")) == 0;
 }
 
 /* Whether a panel starts with the row: it is the first of its kind, and of several values. */
@@ -200,7 +208,7 @@ static void put_line(const trade_rows *rows, FILE *f, size_t first, size_t of, i
         if (next == rows->count)
             break;
         last = scale_of(rows, next, scale);
-        fprintf(f, "%g %g \"", last, trade_number(rows, next, "frame_ms"));
+        fprintf(f, "%g %g \"", last, trade_number(rows, next, scales[scale].time));
         put_name(f, trade_word(rows, next, "config"));
         fprintf(f, "\"\n");
     }
@@ -223,14 +231,14 @@ static void plot_lines(const trade_rows *rows, FILE *f, size_t first, int scale)
         fprintf(f, "EOD\n");
     }
     fprintf(f, "set title '");
-    if (scale == FACES)
+    if (is_by_faces(scale))
         fprintf(f, "lights: %s", trade_word(rows, first, "lights"));
     else
         put_name(f, slash ? slash + 1 : trade_word(rows, first, "scene"));
     fprintf(f,
-            "' noenhanced\nset xlabel '%s'\nset ylabel 'ms a frame, median'\nset logscale xy\nset xrange [*:*]\n"
+            "' noenhanced\nset xlabel '%s'\nset ylabel '%s'\nset logscale xy\nset xrange [*:*]\n"
             "set yrange [*:*]\nset key outside right noenhanced font ',10'\nplot ",
-            scales[scale].label);
+            scales[scale].label, scales[scale].time_label);
     for (size_t i = 0; i < lines; i++)
         fprintf(f, "%s$line%lu using 1:2:(strcol(3)) with linespoints pt 7 ps 0.4 lw 1.5 title word($line%lu[1], 3)",
                 i ? ", " : "", (unsigned long)i, (unsigned long)i);
@@ -246,7 +254,7 @@ static size_t plot_panels(const trade_rows *rows, FILE *f)
         size_t of_this = 0;
 
         for (size_t i = 0; i < rows->count; i++)
-            if (starts_panel(rows, i, scale) && (scale != FACES || of_this == 0)) {
+            if (starts_panel(rows, i, scale) && (!is_by_faces(scale) || of_this == 0)) {
                 if (f)
                     plot_lines(rows, f, i, scale);
                 of_this++;

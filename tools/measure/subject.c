@@ -141,6 +141,7 @@ static int draw_surfaces(subject *s, uint32_t frame, char message[SCENE_MESSAGE]
 static int prepare(subject *s, const subject_desc *d, char message[SCENE_MESSAGE])
 {
     const size_t bytes = (size_t)3 * d->width * d->height;
+    stage_wish plain = {.method = GN_METHOD_AUTO};
 
     s->frames = d->frames;
     s->lights = s->loaded.light_count < d->most_lights ? (uint32_t)s->loaded.light_count : d->most_lights;
@@ -154,7 +155,9 @@ static int prepare(subject *s, const subject_desc *d, char message[SCENE_MESSAGE
     for (uint32_t f = 0; f < s->frames; f++)
         if (!trace_frame(s, f, d->progress, message) || !draw_surfaces(s, f, message))
             return EXIT_FAILED;
-    return EXIT_DONE;
+    subject_pose(s, 0);
+    plain.light_count = s->lights;
+    return frame_clock_open(&s->clock, s->stage, &plain, message) ? EXIT_DONE : EXIT_FAILED;
 }
 
 int subject_open(subject *s, const subject_desc *d)
@@ -195,6 +198,8 @@ void subject_close(subject *s)
         free(s->truths[i].lit);
     free(s->truths);
     free(s->surfaces);
+    if (s->stage)
+        frame_clock_close(&s->clock, s->stage);
     stage_close(s->stage);
     scene_free(&s->loaded);
 }

@@ -15,7 +15,8 @@ static const char header[] =
     "casters,faces,impossible,warning,masks,visible,wrong,wrong_certain,interior,boundary,iou,precision,recall,"
     "boundary_f1,boundary_f2,distance95,flicker,psnr,ssim,flip,worst_frame,worst_light,worst_wrong,shadow_fragments,"
     "vertices,indices,draws,bytes_sent,traffic_estimate_bytes,memory_bytes,energy_estimate_mj,frame_ms,frame_ms_p5,"
-    "frame_ms_p95,shadow_ms,shadow_ms_p5,shadow_ms_p95";
+    "frame_ms_p95,shadow_ms,shadow_ms_p5,shadow_ms_p95,plan_ms,plan_ms_p5,"
+    "plan_ms_p95,clock";
 
 const char *trade_header(void)
 {
@@ -81,6 +82,11 @@ static void put_accuracy(line *l, const trial *t)
         (unsigned long long)t->worst_wrong);
     put(l, "%.1f,%.1f,%.1f,%.1f,%.1f,%.0f,%.0f,%.6f,", t->fragments, t->vertices, t->indices, t->draws, t->bytes_sent,
         t->traffic, t->memory, t->traffic * MILLIJOULES_A_BYTE);
+}
+
+static void put_spread(line *l, const spread *s)
+{
+    put(l, "%.3f,%.3f,%.3f,", s->median, s->p5, s->p95);
 }
 
 static char *copy_of(const char *text, size_t length)
@@ -198,8 +204,10 @@ int trade_add(trade_csv *t, const row_key *key, const config *c, const subject *
             put(&l, ",");
     } else {
         put_accuracy(&l, r);
-        put(&l, "%.3f,%.3f,%.3f,%.3f,%.3f,%.3f", r->frame.median, r->frame.p5, r->frame.p95, r->shadow.median,
-            r->shadow.p5, r->shadow.p95);
+        put_spread(&l, &r->frame);
+        put_spread(&l, &r->shadow);
+        put_spread(&l, &r->plan);
+        put(&l, "\"%s\"", s->clock.query ? "query" : s->clock.why_not);
     }
     return keep(t, copy_of(l.text, l.length)) && write_rows(t);
 }

@@ -29,42 +29,37 @@ static size_t pixels_of(const subject *s)
     return (size_t)s->stage->target.width * s->stage->target.height;
 }
 
-static int draw_timed(stage *st, const stage_wish *wish, double *ms, char message[SCENE_MESSAGE])
-{
-    const double start = now_ms();
-
-    if (stage_plan(st, wish, message) != 0 || !stage_draw_lit(st, 0, message))
-        return 0;
-    st->gl->glFinish();
-    *ms = now_ms() - start;
-    return 1;
-}
-
-/* Frames with and without shadows in turn; the shadow part is the difference of the two. The first of each warms up. */
+/* Frames with and without shadows in turn; the shadow part is the difference of the two: of the GL's own times where its
+ * clock is believed. The first of each warms up. */
 static int measure_times(subject *s, const config *c, uint32_t lights, uint32_t repeat, trial *out,
                          char message[SCENE_MESSAGE])
 {
     const size_t count = (size_t)s->frames * repeat;
-    double *frame = malloc(count * sizeof *frame), *shadow = malloc(count * sizeof *shadow);
+    double *const frame = malloc(3 * count * sizeof *frame), *const shadow = frame + count,
+                  *const plan = shadow + count;
     stage_wish with = wish_for(s, c, 1), without = wish_for(s, c, 0);
-    int ok = frame && shadow;
+    int ok = frame != NULL;
 
     with.light_count = without.light_count = lights;
     for (size_t i = 0; ok && i < count + 1; i++) {
         const size_t at = i ? i - 1 : 0;
-        double plain;
+        frame_times plain, all;
 
         subject_pose(s, (uint32_t)(at / repeat));
-        ok = draw_timed(s->stage, &without, &plain, message) && draw_timed(s->stage, &with, &frame[at], message);
-        if (ok)
-            shadow[at] = frame[at] - plain;
+        ok = frame_clock_draw(&s->clock, s->stage, &without, &plain, message) &&
+             frame_clock_draw(&s->clock, s->stage, &with, &all, message);
+        if (ok) {
+            frame[at] = all.frame;
+            plan[at] = all.plan;
+            shadow[at] = s->clock.query ? all.gl - plain.gl : all.frame - plain.frame;
+        }
     }
     if (ok) {
         out->frame = spread_of(frame, count);
         out->shadow = spread_of(shadow, count);
+        out->plan = spread_of(plan, count);
     }
     free(frame);
-    free(shadow);
     return ok;
 }
 

@@ -4,6 +4,7 @@
  * traced once and kept; a configuration is a way to make shadows; a trial runs one on the other. */
 #ifndef TRIAL_H
 #define TRIAL_H
+#include "frame_clock.h"
 #include "spread.h"
 #include "stage.h"
 
@@ -41,6 +42,7 @@ typedef struct subject {
     const camera_path *path;
     uint32_t frames, lights; /* lights: of the scene, or the most that are asked for */
     shortcuts spared;
+    frame_clock clock;
     truth_mask *truths; /* [frames][lights] */
     uint8_t *surfaces;  /* [frames][lights + 1][pixels][3]: ambient light alone, and with it each light, unshadowed */
 } subject;
@@ -66,7 +68,7 @@ typedef struct trial {
     char warning[256];    /* of the plan; or "" */
     uint32_t masks;       /* that were compared: frames times lights */
     uint32_t casters, faces;
-    spread frame, shadow; /* ms */
+    spread frame, shadow, plan; /* ms */
     /* of all frames together, a frame on average */
     double fragments, vertices, indices, draws, bytes_sent, traffic;
     double memory; /* bytes of images and masks, and of the plan */
