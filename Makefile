@@ -29,7 +29,7 @@ FLAGS    = -std=c99 $(WARN) $(WERROR) -ffp-contract=off $($(VARIANT)) $(INCLUDE)
 
 # Each room sees only the rooms below it.
 INC_port      := -Iport
-INC_core      := $(INC_port) -Icore
+INC_core      := $(INC_port) -Icore -I$(B)/rules
 INC_gles      := $(INC_core) -Igles -I$(B)/gles
 INC_platforms := -Iplatforms
 INC_tools      = -D_POSIX_C_SOURCE=200809L $(INC_core) -Igles -Iplatforms -Itools -Itools/scene -Itools/truth -Itools/stage -Itools/measure -I$(B)/tools/stage $(shell $(PKG_CONFIG) --cflags libcjson libpng)
@@ -44,10 +44,10 @@ objects  = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)))
 LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c gles/*/*.c)
 TOOLS   := $(filter-out $(B)/tools/main.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
 SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
-SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/*))
+SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/* rules/default.fcl))
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
 BENCHES := $(patsubst %.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
-PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core/gn_matrix.h gles/gnomon_gles.h gles/gn_glsl.h gles/gn_gl.h gles/gl_funcs.h
+PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core/gn_matrix.h core/gn_rules.h gles/gnomon_gles.h gles/gn_glsl.h gles/gn_gl.h gles/gl_funcs.h
 SCENES  := build/scenes/scenes.txt
 
 .DEFAULT_GOAL := all
@@ -81,6 +81,7 @@ bench: $(BENCHES) $(SCENES) ## what things cost: counts, and times as remarks; i
 	@$(B)/tests/bench/bench_frames > build/frames.csv && mv build/frames.csv tests/bench/frames.csv
 
 trade: $(B)/gnomon $(SCENES) ## the measured trade of docs/trade.md: the demo scene and others, and the rig (some minutes, a quiet machine)
+	@mkdir -p build/trade build/rig
 	@for spared in "" "--update-every 2" "--update-every 4" "--masks-every 2" "--masks-every 4" "--weld-angle 2" "--weld-angle 10" "--proxy 2000"; do \
 	  $(B)/gnomon measure build/scenes/pile_of_8.gltf -o build/trade/spared --methods stencil --scales 1 --spin 2 --repeat 3 $$spared || exit 1; done
 	@$(PYTHON) tests/scenes/rig.py build/rig
@@ -162,6 +163,10 @@ $(B)/%.o: %.c $(B)/flags | $(SHADERS)
 	@mkdir -p $(@D)
 	@echo "  cc    $<"
 	$(Q)$(CC) $(FLAGS) -c $< -o $@
+# Rules become an array, since strings of C99 end at 4,095 bytes; lines stay too.
+$(B)/rules/%.fcl.h: rules/%.fcl
+	@mkdir -p $(@D)
+	@{ echo 'static const char gni_$*_fcl[] = {'; sed 's|^[[:space:]]*||; s|[[:space:]]*//.*||' $< | od -An -v -tu1 | sed 's/ *\([0-9][0-9]*\)/\1,/g'; echo '0};'; } > $@
 # A shader becomes a C string: comments go, lines stay, so that the driver's line numbers are the file's.
 $(B)/%.h: %
 	@mkdir -p $(@D)

@@ -29,6 +29,7 @@ need libosmesa6 library libOSMesa.so
 need gnuplot-nox command -v gnuplot
 need chromium command -v chromium
 need python3-skimage /usr/bin/python3 -c "import skimage"
+need fuzzylite command -v fuzzylite
 
 [ -z "$missing" ] && exit 0
 if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; then

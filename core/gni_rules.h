@@ -1,0 +1,64 @@
+/* gni_rules.h - rules as they are kept: what the reader (rules.c) makes and the engine (fuzzy.c) evaluates. */
+#ifndef GNI_RULES_H
+#define GNI_RULES_H
+#include "gn_rules.h"
+#include "gni.h"
+
+enum {
+    GNI_MOST_TERMS = 9,   /* of one variable: of an output by COG all may overlap */
+    GNI_MOST_NESTED = 16, /* parentheses, and so the depth of the stack */
+    GNI_MOST_OF_RULES = 4096
+};
+
+/* Points of a term are [first_point, first_point + point_count): x never falls. A singleton has one. */
+typedef struct gni_term {
+    const char *name;
+    uint16_t first_point, point_count;
+} gni_term;
+
+typedef struct gni_variable {
+    const char *name;
+    double low, high; /* RANGE; INFINITY, -INFINITY until it is known */
+    double otherwise; /* DEFAULT */
+    uint16_t first_term, term_count;
+    uint16_t first_slice, slice_count; /* of an output by COG */
+    uint8_t keeps;                     /* DEFAULT is NC */
+    uint8_t is_by_singletons;          /* COGS */
+} gni_variable;
+
+/* An antecedent is a program for a stack: a term's number pushes its membership. */
+enum { GNI_RULE_NOT = 0xfff0, GNI_RULE_AND, GNI_RULE_OR };
+
+typedef struct gni_rule {
+    float weight;
+    uint16_t first_code, code_count;
+    uint16_t first_then, then_count; /* of thens: terms of outputs */
+    uint32_t text, text_length;      /* of it, from IF to before the semicolon */
+} gni_rule;
+
+/* Between two places of an output's range where no term has a point: each term is a line there, whose ends are in
+ * slice_ends[2 * (first_end + term)]. */
+typedef struct gni_slice {
+    double from, to;
+    uint32_t first_end;
+} gni_slice;
+
+struct gn_rules {
+    gn_context *context;
+    char *text, *names;
+    gni_variable *inputs, *outputs;
+    gni_term *terms;
+    double (*points)[2];
+    gni_rule *rules;
+    uint16_t *code, *thens;
+    gni_slice *slices;
+    double *slice_ends;
+    double *degrees; /* [term_count] memberships of inputs' terms, activations of outputs' */
+    uint32_t input_count, output_count, term_count, point_count, rule_count, code_count, then_count, slice_count;
+};
+
+/* fuzzy.c: how much of a term a value is. */
+double gni_membership(const gn_rules *r, const gni_term *term, double x);
+/* fuzzy.c: slices of outputs by COG, and room for degrees. */
+gn_result gni_prepare_rules(gn_rules *rules);
+#endif
