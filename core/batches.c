@@ -18,6 +18,7 @@
 #include <string.h>
 
 #define ROOM_FOR_RING 16 /* triangles: of fewer the ring is as many again */
+#define FEW           2  /* layers of one caster that are not looked at closer */
 
 size_t gni_most_pieces(const gn_mesh *mesh, size_t ends, uint32_t limit)
 {
@@ -395,7 +396,7 @@ int gni_layers_fit(gni_draft *d, uint32_t limit, uint32_t first_record)
         return 1;
     }
     for (uint32_t i = 0; i < d->scene->object_count; i++)
-        if (d->is_in[i] & GNI_IN_CAST) {
+        if (d->is_in[i] & GNI_IN_CAST && d->cheap_of[i] > FEW) {
             const uint32_t own = gni_sweep_caster(d, first_record, i);
 
             d->cheap_of[i] = own < d->cheap_of[i] ? own : d->cheap_of[i];

@@ -16,9 +16,13 @@
 #define ROOM   0.01 /* of a corner's distance: so far before the plane through the light it must lie */
 #define LOOSE  1e-3 /* of a bin: rounding stays inside */
 
-/* A point of view space is at dot(along, p) / dot(depth, p) of the line of bins, 0 to GNI_BINS. */
+#define BINS_AN_EDGE 32 /* so that few edges share one; no more are cleared and summed than that */
+#define LEAST_BINS   512
+
+/* A point of view space is at dot(along, p) / dot(depth, p) of the line of bins, 0 to count. */
 typedef struct bins {
     double along[4], depth[4];
+    int count; /* at most GNI_BINS */
 } bins;
 
 /* only: one object, or GNI_NONE for all that cast. */
@@ -87,7 +91,7 @@ static int fit_bins(const gni_draft *d, uint32_t only, double turn, bins *b)
     b->depth[3] = light[3] == 0.0 ? 1.0 : -gni_dot(axes[2], light);
     b->along[3] = light[3] == 0.0 ? 0.0 : -gni_dot(axes[0], light);
     for (int k = 0; k < 4; k++)
-        b->along[k] = (b->along[k] - low * b->depth[k]) * (GNI_BINS / (high - low));
+        b->along[k] = (b->along[k] - low * b->depth[k]) * (b->count / (high - low));
     return 1;
 }
 
@@ -116,14 +120,24 @@ static int add_edge(const bins *b, const gn_mesh *mesh, const uint32_t *vertices
     const double x = at_vertex(b, mesh->positions + 3 * (size_t)vertices[from / 2u]);
     const double y = at_vertex(b, mesh->positions + 3 * (size_t)vertices[to / 2u]);
 
-    if (!(x >= -1.0 && x <= GNI_BINS + 1.0 && y >= -1.0 && y <= GNI_BINS + 1.0))
+    if (!(x >= -1.0 && x <= b->count + 1.0 && y >= -1.0 && y <= b->count + 1.0))
         return 0;
-    differences[(int)fmin(fmax((x < y ? x : y) - LOOSE, 0.0), GNI_BINS - 1.0)]++;
-    differences[(int)fmin(fmax((x < y ? y : x) + LOOSE, 0.0), GNI_BINS - 1.0) + 1]--;
+    differences[(int)fmin(fmax((x < y ? x : y) - LOOSE, 0.0), b->count - 1.0)]++;
+    differences[(int)fmin(fmax((x < y ? y : x) + LOOSE, 0.0), b->count - 1.0) + 1]--;
     return 1;
 }
 
-/* Adds the silhouette of a record: that which its sides stand on, or the outline of its cap on a patch. */
+/* The silhouette of a record: that which its sides stand on, or the outline of its cap on a patch. */
+static gni_outline outline_of(const gni_draft *d, uint32_t record)
+{
+    const gn_record *r = &d->records[record];
+    const gni_outline of_sides = {r->first_side, r->side_count,
+                                  r->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? 3 : 6};
+
+    return r->patch ? d->outlines[record + d->flat_count - d->plan->record_count] : of_sides;
+}
+
+/* Adds it to the differences. */
 static int add_record(const gni_draft *d, uint32_t record, const bins *in_view, int32_t differences[GNI_BINS + 1])
 {
     const gn_record *r = &d->records[record];
@@ -131,16 +145,13 @@ static int add_record(const gni_draft *d, uint32_t record, const bins *in_view, 
     const gn_mesh *mesh = object->mesh;
     const uint32_t *vertices = mesh->chunk_vertices + mesh->chunks[r->chunk].first_vertex;
     const uint16_t *from = r->is_cached ? d->scene->cache->indices : d->indices;
-    gni_outline outline = {r->first_side, r->side_count,
-                           r->far_end != GN_FAR_ENDED && d->bounds.light[3] == 0.0 ? 3 : 6};
+    const gni_outline outline = outline_of(d, record);
     double model_view[16];
     bins b = *in_view;
     int all_fit = 1;
 
     if (r->detached && record > 0 && r[-1].object == r->object && r[-1].first_side == r->first_side && !r[-1].patch)
         return 1; /* of the same volume: no point is in both */
-    if (r->patch)
-        outline = d->outlines[record + d->flat_count - d->plan->record_count];
     gni_model_view(model_view, &d->scene->camera, object->model, mesh->info.centre);
     row_by_matrix(b.along, model_view);
     row_by_matrix(b.depth, model_view);
@@ -150,18 +161,40 @@ static int add_record(const gni_draft *d, uint32_t record, const bins *in_view, 
     return all_fit;
 }
 
+static int is_swept(const gni_draft *d, uint32_t record, uint32_t only)
+{
+    return only == GNI_NONE || d->records[record].object == only;
+}
+
+static int choose_count(const gni_draft *d, uint32_t first_record, uint32_t only)
+{
+    uint32_t edges = 0;
+    int count = LEAST_BINS;
+
+    for (uint32_t i = first_record; i < d->plan->record_count; i++)
+        if (is_swept(d, i, only)) {
+            const gni_outline outline = outline_of(d, i);
+
+            edges += outline.count / outline.of_a_side;
+        }
+    while (count < GNI_BINS && (uint32_t)count < BINS_AN_EDGE * edges)
+        count *= 2;
+    return count;
+}
+
 static uint32_t sweep(gni_draft *d, uint32_t first_record, uint32_t only, double turn)
 {
     int32_t *const differences = d->layers->bins, crossed = 0, most = 0;
     bins b;
 
+    b.count = choose_count(d, first_record, only);
     if (!fit_bins(d, only, turn, &b))
         return UINT32_MAX;
-    memset(d->layers->bins, 0, sizeof d->layers->bins);
+    memset(differences, 0, ((size_t)b.count + 1) * sizeof *differences);
     for (uint32_t i = first_record; i < d->plan->record_count; i++)
-        if ((only == GNI_NONE || d->records[i].object == only) && !add_record(d, i, &b, differences))
+        if (is_swept(d, i, only) && !add_record(d, i, &b, differences))
             return UINT32_MAX;
-    for (int i = 0; i < GNI_BINS; i++) {
+    for (int i = 0; i < b.count; i++) {
         crossed += differences[i];
         most = crossed > most ? crossed : most;
     }
