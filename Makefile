@@ -47,7 +47,7 @@ SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/* rules/default.fcl))
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
 BENCHES := $(patsubst %.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
-PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core/gn_matrix.h core/gn_rules.h gles/gnomon_gles.h gles/gn_glsl.h gles/gn_gl.h gles/gl_funcs.h
+PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core/gn_matrix.h core/gn_rules.h core/gn_select.h gles/gnomon_gles.h gles/gn_glsl.h gles/gn_gl.h gles/gl_funcs.h
 SCENES  := build/scenes/scenes.txt
 
 .DEFAULT_GOAL := all

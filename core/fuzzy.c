@@ -233,8 +233,9 @@ gn_result gni_prepare_rules(gn_rules *r)
 
     r->degrees = gni_alloc(r->context, r->term_count ? r->term_count : 1, sizeof *r->degrees);
     r->slices = gni_alloc(r->context, (size_t)r->point_count + 2 * (size_t)r->output_count + 1, sizeof *r->slices);
-    r->slice_ends = gni_alloc(
-        r->context, 2 * GNI_MOST_TERMS * ((size_t)r->point_count + 2 * (size_t)r->output_count + 1), sizeof *r->slice_ends);
+    r->slice_ends =
+        gni_alloc(r->context, 2 * GNI_MOST_TERMS * ((size_t)r->point_count + 2 * (size_t)r->output_count + 1),
+                  sizeof *r->slice_ends);
     if (!places || !r->degrees || !r->slices || !r->slice_ends) {
         gni_free(r->context, places);
         return gn_fail(r->context, GN_E_MEMORY, "rules: no memory for %lu points", (unsigned long)r->point_count);

@@ -137,7 +137,8 @@ static void read_points(reader *p, gni_term *term)
         r->point_count++;
     }
     if (term->point_count == 1)
-        gni_scan_fail(&p->scan, p->scan.token.at, "term %s: one point is none: a number alone is a singleton", term->name);
+        gni_scan_fail(&p->scan, p->scan.token.at, "term %s: one point is none: a number alone is a singleton",
+                      term->name);
 }
 
 static void read_term(reader *p, gni_variable *v)
@@ -147,7 +148,8 @@ static void read_term(reader *p, gni_variable *v)
 
     for (uint32_t t = v->first_term; t < (uint32_t)v->first_term + v->term_count; t++)
         if (is_name(p, r->terms[t].name))
-            gni_scan_fail(&p->scan, p->scan.token.at, "%s has a term of that name already (%s)", v->name, r->terms[t].name);
+            gni_scan_fail(&p->scan, p->scan.token.at, "%s has a term of that name already (%s)", v->name,
+                          r->terms[t].name);
     if (v->term_count == GNI_MOST_TERMS)
         gni_scan_fail(&p->scan, p->scan.token.at, "%s has more than %d terms", v->name, GNI_MOST_TERMS);
     term->name = copy_name(p);
@@ -171,8 +173,8 @@ static void read_method(reader *p, gni_variable *v)
     gni_scan_expect(&p->scan, ":");
     v->is_by_singletons = (uint8_t)gni_scan_take(&p->scan, "COGS");
     if (!v->is_by_singletons && !gni_scan_take(&p->scan, "COG"))
-        gni_scan_fail(&p->scan, p->scan.token.at, "%s: METHOD is COG or COGS here (%.*s)", v->name, (int)p->scan.token.length,
-                      p->scan.token.at);
+        gni_scan_fail(&p->scan, p->scan.token.at, "%s: METHOD is COG or COGS here (%.*s)", v->name,
+                      (int)p->scan.token.length, p->scan.token.at);
     gni_scan_expect(&p->scan, ";");
 }
 

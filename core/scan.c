@@ -108,7 +108,8 @@ void gni_scan_next(gni_scan *s)
     } else if (s->at < s->end && is_digit(*s->at)) {
         scan_number(s);
     } else if (s->at < s->end) {
-        const int is_double = s->end - s->at > 1 && ((s->at[0] == ':' && s->at[1] == '=') || (s->at[0] == '.' && s->at[1] == '.'));
+        const int is_double =
+            s->end - s->at > 1 && ((s->at[0] == ':' && s->at[1] == '=') || (s->at[0] == '.' && s->at[1] == '.'));
 
         s->token.kind = GNI_SIGN;
         s->at += is_double ? 2 : 1;
@@ -145,8 +146,8 @@ void gni_scan_expect(gni_scan *s, const char *expected)
     if (gni_scan_take(s, expected))
         return;
     if (s->token.length)
-        gni_scan_fail(s, s->token.at, "%s is missing before '%.*s'", expected, (int)(s->token.length < 40 ? s->token.length : 40),
-                      s->token.at);
+        gni_scan_fail(s, s->token.at, "%s is missing before '%.*s'", expected,
+                      (int)(s->token.length < 40 ? s->token.length : 40), s->token.at);
     else
         gni_scan_fail(s, s->token.at, "%s is missing at the end", expected);
 }

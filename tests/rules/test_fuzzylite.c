@@ -73,7 +73,8 @@ static void ask_fuzzylite(const char *path, uint32_t input_count)
     fclose(f);
     snprintf(command, sizeof command,
              "fuzzylite -i %s -if fcl -o %s/rules.fll -of fll -decimals 12 && sed -i 's/Centroid 100$/Centroid 20000/' "
-             "%s/rules.fll && fuzzylite -i %s/rules.fll -if fll -o %s/out.txt -of fld -d %s/in.txt -dheader false -dinputs false "
+             "%s/rules.fll && fuzzylite -i %s/rules.fll -if fll -o %s/out.txt -of fld -d %s/in.txt -dheader false "
+             "-dinputs false "
              "-decimals 12",
              path, folder, folder, folder, folder, folder);
     if (system(command) != 0)
@@ -126,11 +127,11 @@ static void is_fuzzylites(void **state)
 
 int main(void)
 {
-    static const char *const names[] = {"rules/default",         "rules/rautenbach",      "tests/rules/beyond",
-                                        "tests/rules/blocks",    "tests/rules/faint",     "tests/rules/fine",
-                                        "tests/rules/negations", "tests/rules/nine",      "tests/rules/outputs",
-                                        "tests/rules/overlaps",  "tests/rules/singletons", "tests/rules/steps",
-                                        "tests/rules/trapezoids", "tests/rules/triangles", "tests/rules/weights"};
+    static const char *const names[] = {"rules/default",          "rules/rautenbach",       "tests/rules/beyond",
+                                        "tests/rules/blocks",     "tests/rules/faint",      "tests/rules/fine",
+                                        "tests/rules/negations",  "tests/rules/nine",       "tests/rules/outputs",
+                                        "tests/rules/overlaps",   "tests/rules/singletons", "tests/rules/steps",
+                                        "tests/rules/trapezoids", "tests/rules/triangles",  "tests/rules/weights"};
     enum { COUNT = sizeof names / sizeof names[0] };
     static char paths[COUNT][64];
     struct CMUnitTest tests[COUNT];

@@ -34,11 +34,14 @@ static void refuses_with_line_and_column(void **state)
         {"FUNCTION_BLOCK f\nEND_FUNCTION_BLOCK\nmore", "line 3, column 1:  is missing before 'more'"},
         {HEAD BLOCK(""), "output z has no DEFUZZIFY"},
         {HEAD OUT BLOCK(" RULE 1 : if q is low then z is a;\n"), "line 25, column 14: no input has that name (q)"},
-        {HEAD OUT BLOCK(" RULE 1 : if x is some then z is a;\n"), "line 25, column 19: x has no term of that name (some)"},
+        {HEAD OUT BLOCK(" RULE 1 : if x is some then z is a;\n"),
+         "line 25, column 19: x has no term of that name (some)"},
         {HEAD OUT BLOCK(" RULE 1 : if x is low then x is a;\n"), "line 25, column 28: no output has that name (x)"},
-        {HEAD OUT BLOCK(" RULE 1 : if x is low then z is a with 2;\n"), "column 11: a rule's weight is from 0 to 1 (2)"},
+        {HEAD OUT BLOCK(" RULE 1 : if x is low then z is a with 2;\n"),
+         "column 11: a rule's weight is from 0 to 1 (2)"},
         {HEAD OUT BLOCK(" RULE 1 : if (x is low then z is a;\n"), "column 24: ) is missing before 'then'"},
-        {HEAD OUT BLOCK(" RULE 1 : if x is low then z is a\n"), "line 26, column 1: ; is missing before 'END_RULEBLOCK'"},
+        {HEAD OUT BLOCK(" RULE 1 : if x is low then z is a\n"),
+         "line 26, column 1: ; is missing before 'END_RULEBLOCK'"},
         {HEAD OUT BLOCK(" AND : PROD;\n"), "line 25, column 8: MIN is missing before 'PROD'"},
         {HEAD OUT BLOCK(" RULE 1 : if x is very low then z is a;\n"), "x has no term of that name (very)"},
         {HEAD OUT BLOCK(" (* no end"), "line 25, column 2: a comment has no end"},
@@ -46,12 +49,14 @@ static void refuses_with_line_and_column(void **state)
         {HEAD "DEFUZZIFY z\n TERM a := 3;\n METHOD : COG;\nEND_DEFUZZIFY\n" BLOCK(""), "COG takes terms of points"},
         {HEAD "DEFUZZIFY z\n TERM a := (0, 1) (1, 0);\n METHOD : COGS;\nEND_DEFUZZIFY\n" BLOCK(""),
          "COGS takes terms of one number each"},
-        {HEAD "DEFUZZIFY z\n METHOD : LM;\nEND_DEFUZZIFY\n" BLOCK(""), "line 18, column 11: z: METHOD is COG or COGS here (LM)"},
+        {HEAD "DEFUZZIFY z\n METHOD : LM;\nEND_DEFUZZIFY\n" BLOCK(""),
+         "line 18, column 11: z: METHOD is COG or COGS here (LM)"},
         {HEAD "DEFUZZIFY z\n RANGE := (3 .. 3);\nEND_DEFUZZIFY\n" BLOCK(""), "the range of z is empty (3 .. 3)"},
         {HEAD "DEFUZZIFY z\n TERM a := (0, 2) (1, 0);\nEND_DEFUZZIFY\n" BLOCK(""), "a membership is from 0 to 1 (2)"},
         {HEAD "DEFUZZIFY z\n TERM a := (0, 1) (-1, 0);\nEND_DEFUZZIFY\n" BLOCK(""), "its points go back from 0 to -1"},
         {HEAD "DEFUZZIFY z\n TERM a := (0, 1);\nEND_DEFUZZIFY\n" BLOCK(""), "term a: one point is none"},
-        {HEAD "DEFUZZIFY z\n TERM a := (0, 1e999) (1, 1);\nEND_DEFUZZIFY\n" BLOCK(""), "the number is too large (1e999)"},
+        {HEAD "DEFUZZIFY z\n TERM a := (0, 1e999) (1, 1);\nEND_DEFUZZIFY\n" BLOCK(""),
+         "the number is too large (1e999)"},
         {HEAD "DEFUZZIFY z\n TERM a := x;\nEND_DEFUZZIFY\n" BLOCK(""), "line 18, column 12: a number is missing ('x')"},
         {"FUNCTION_BLOCK f\nVAR_INPUT\n x : BOOL;\n", "line 3, column 6: REAL is missing before 'BOOL'"},
         {"FUNCTION_BLOCK f\nVAR_INPUT\n x : REAL;\n x : REAL;\n", "there is a variable of that name already (x)"},
@@ -71,7 +76,8 @@ static void refuses_with_line_and_column(void **state)
 /* Every text that is cut short, and every one with a byte changed, is read or refused. */
 static void survives_any_text(void **state)
 {
-    static const char text[] = HEAD OUT BLOCK(" RULE 1 : if x is not low and (y is high or x is high) then z is a with 0.5;\n");
+    static const char text[] =
+        HEAD OUT BLOCK(" RULE 1 : if x is not low and (y is high or x is high) then z is a with 0.5;\n");
     char broken[sizeof text];
     uint32_t seed = 3;
     gn_rules *rules;
@@ -80,7 +86,8 @@ static void survives_any_text(void **state)
     (void)state;
     for (size_t length = 0; length < sizeof text - 1; length++) {
         /* all but the last line's end */
-        assert_int_equal(gn_rules_create(test_context, text, length, &rules), length < sizeof text - 2 ? GN_E_ARG : GN_OK);
+        assert_int_equal(gn_rules_create(test_context, text, length, &rules),
+                         length < sizeof text - 2 ? GN_E_ARG : GN_OK);
         gn_rules_destroy(rules);
     }
     for (int i = 0; i < 5000; i++) {
@@ -111,8 +118,8 @@ static void nests_to_a_limit(void **state)
 
         deep[depth - 1] = '(';
         close[depth - 1] = ')';
-        snprintf(text, sizeof text, "%s RULE 1 : if x is high and %sx is low or x is high%s then z is a;\n%s", HEAD OUT "RULEBLOCK\n",
-                 deep, close, "END_RULEBLOCK END_FUNCTION_BLOCK");
+        snprintf(text, sizeof text, "%s RULE 1 : if x is high and %sx is low or x is high%s then z is a;\n%s",
+                 HEAD OUT "RULEBLOCK\n", deep, close, "END_RULEBLOCK END_FUNCTION_BLOCK");
         if (depth == 17) {
             assert_int_equal(gn_rules_create(test_context, text, strlen(text), &rules), GN_E_ARG);
             break;
@@ -126,8 +133,9 @@ static void nests_to_a_limit(void **state)
 
 static void says_what_it_is_of(void **state)
 {
-    gn_rules *rules = read_text(HEAD OUT BLOCK(" RULE first : IF x IS low\n   AND (* both *) y IS NOT high THEN z IS a;\n"
-                                               " RULE 2 : if y is high then z is b;\n"));
+    gn_rules *rules =
+        read_text(HEAD OUT BLOCK(" RULE first : IF x IS low\n   AND (* both *) y IS NOT high THEN z IS a;\n"
+                                 " RULE 2 : if y is high then z is b;\n"));
     double range[2];
     char text[64];
 
@@ -181,9 +189,11 @@ static void keeps_or_takes_its_default(void **state)
 /* A centre does not depend on the order of terms and rules; it moves with the range; it lies within what is enclosed. */
 static void obeys_laws(void **state)
 {
-    static const char form[] = HEAD "DEFUZZIFY z\n RANGE := (%g .. %g);\n TERM %s := (%g, 0) (%g, 1) (%g, 0);\n TERM %s := (%g, 0) "
-                                    "(%g, 1) (%g, 0);\n METHOD : COG;\nEND_DEFUZZIFY\nRULEBLOCK\n%s%sEND_RULEBLOCK\nEND_FUNCTION_BLOCK";
-    static const char *const rule[2] = {" RULE 1 : if x is high then z is a;\n", " RULE 2 : if y is high then z is b;\n"};
+    static const char form[] =
+        HEAD "DEFUZZIFY z\n RANGE := (%g .. %g);\n TERM %s := (%g, 0) (%g, 1) (%g, 0);\n TERM %s := (%g, 0) "
+             "(%g, 1) (%g, 0);\n METHOD : COG;\nEND_DEFUZZIFY\nRULEBLOCK\n%s%sEND_RULEBLOCK\nEND_FUNCTION_BLOCK";
+    static const char *const rule[2] = {" RULE 1 : if x is high then z is a;\n",
+                                        " RULE 2 : if y is high then z is b;\n"};
     uint32_t seed = 11;
 
     (void)state;
@@ -218,22 +228,27 @@ static void obeys_laws(void **state)
  * nothing. (He says 0.5 of rule 1, which is the membership of an average number in what asks for few.) */
 static void works_rautenbachs_example(void **state)
 {
-    gn_rules *rules = read_text(
-        "FUNCTION_BLOCK example\nVAR_INPUT\n lights : REAL; polygons : REAL; rate : REAL;\nEND_VAR\n"
-        "VAR_OUTPUT\n mapping : REAL; volumes : REAL;\nEND_VAR\n"
-        "FUZZIFY lights\n TERM few := (0, 1) (50, 0); TERM average := (30, 0) (50, 1) (70, 0); TERM many := (50, 0) (100, 1);\n"
-        "END_FUZZIFY\n"
-        "FUZZIFY polygons\n TERM low := (0, 1) (600, 0); TERM average := (200, 0) (500, 1) (800, 0); TERM high := (600, 0) "
-        "(1000, 1);\nEND_FUZZIFY\n"
-        "FUZZIFY rate\n TERM low := (0, 1) (30, 0); TERM average := (20, 0) (40, 1) (60, 0); TERM high := (50, 0) (80, 1);\n"
-        "END_FUZZIFY\n"
-        "DEFUZZIFY mapping\n RANGE := (0 .. 100); TERM surely := (0, 0) (100, 1); METHOD : COG; DEFAULT := 0;\nEND_DEFUZZIFY\n"
-        "DEFUZZIFY volumes\n RANGE := (0 .. 100); TERM surely := (0, 0) (100, 1); METHOD : COG; DEFAULT := 0;\nEND_DEFUZZIFY\n"
-        "RULEBLOCK his\n"
-        " RULE 1 : IF lights IS few THEN mapping IS surely;\n"
-        " RULE 2 : IF lights IS many AND polygons IS average AND rate IS low THEN volumes IS surely;\n"
-        " RULE 3 : IF lights IS average AND polygons IS high AND rate IS average THEN mapping IS surely;\n"
-        "END_RULEBLOCK\nEND_FUNCTION_BLOCK\n");
+    gn_rules *rules =
+        read_text("FUNCTION_BLOCK example\nVAR_INPUT\n lights : REAL; polygons : REAL; rate : REAL;\nEND_VAR\n"
+                  "VAR_OUTPUT\n mapping : REAL; volumes : REAL;\nEND_VAR\n"
+                  "FUZZIFY lights\n TERM few := (0, 1) (50, 0); TERM average := (30, 0) (50, 1) (70, 0); TERM many := "
+                  "(50, 0) (100, 1);\n"
+                  "END_FUZZIFY\n"
+                  "FUZZIFY polygons\n TERM low := (0, 1) (600, 0); TERM average := (200, 0) (500, 1) (800, 0); TERM "
+                  "high := (600, 0) "
+                  "(1000, 1);\nEND_FUZZIFY\n"
+                  "FUZZIFY rate\n TERM low := (0, 1) (30, 0); TERM average := (20, 0) (40, 1) (60, 0); TERM high := "
+                  "(50, 0) (80, 1);\n"
+                  "END_FUZZIFY\n"
+                  "DEFUZZIFY mapping\n RANGE := (0 .. 100); TERM surely := (0, 0) (100, 1); METHOD : COG; DEFAULT := "
+                  "0;\nEND_DEFUZZIFY\n"
+                  "DEFUZZIFY volumes\n RANGE := (0 .. 100); TERM surely := (0, 0) (100, 1); METHOD : COG; DEFAULT := "
+                  "0;\nEND_DEFUZZIFY\n"
+                  "RULEBLOCK his\n"
+                  " RULE 1 : IF lights IS few THEN mapping IS surely;\n"
+                  " RULE 2 : IF lights IS many AND polygons IS average AND rate IS low THEN volumes IS surely;\n"
+                  " RULE 3 : IF lights IS average AND polygons IS high AND rate IS average THEN mapping IS surely;\n"
+                  "END_RULEBLOCK\nEND_FUNCTION_BLOCK\n");
     const double in[3] = {60, 550, 28};
     double out[2];
     float strengths[3];
@@ -288,10 +303,14 @@ static void gives_memory_back(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(refuses_with_line_and_column), cmocka_unit_test(survives_any_text),
-        cmocka_unit_test(nests_to_a_limit),             cmocka_unit_test(says_what_it_is_of),
-        cmocka_unit_test(keeps_or_takes_its_default),   cmocka_unit_test(obeys_laws),
-        cmocka_unit_test(works_rautenbachs_example),    cmocka_unit_test(gives_memory_back),
+        cmocka_unit_test(refuses_with_line_and_column),
+        cmocka_unit_test(survives_any_text),
+        cmocka_unit_test(nests_to_a_limit),
+        cmocka_unit_test(says_what_it_is_of),
+        cmocka_unit_test(keeps_or_takes_its_default),
+        cmocka_unit_test(obeys_laws),
+        cmocka_unit_test(works_rautenbachs_example),
+        cmocka_unit_test(gives_memory_back),
     };
 
     return cmocka_run_group_tests(tests, test_open_context, test_close_context);
