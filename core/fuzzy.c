@@ -226,20 +226,10 @@ static uint32_t find_places(const gn_rules *r, const gni_variable *v, double *pl
     return count;
 }
 
-gn_result gni_prepare_rules(gn_rules *r)
+void gni_prepare_rules(gn_rules *r)
 {
-    double *places = gni_alloc(r->context, (size_t)r->point_count + 2, sizeof *places);
     uint32_t ends = 0;
 
-    r->degrees = gni_alloc(r->context, r->term_count ? r->term_count : 1, sizeof *r->degrees);
-    r->slices = gni_alloc(r->context, (size_t)r->point_count + 2 * (size_t)r->output_count + 1, sizeof *r->slices);
-    r->slice_ends =
-        gni_alloc(r->context, 2 * GNI_MOST_TERMS * ((size_t)r->point_count + 2 * (size_t)r->output_count + 1),
-                  sizeof *r->slice_ends);
-    if (!places || !r->degrees || !r->slices || !r->slice_ends) {
-        gni_free(r->context, places);
-        return gn_fail(r->context, GN_E_MEMORY, "rules: no memory for %lu points", (unsigned long)r->point_count);
-    }
     for (uint32_t i = 0; i < r->output_count; i++) {
         gni_variable *v = &r->outputs[i];
         uint32_t count;
@@ -247,16 +237,14 @@ gn_result gni_prepare_rules(gn_rules *r)
         v->first_slice = (uint16_t)r->slice_count;
         if (v->is_by_singletons)
             continue;
-        count = find_places(r, v, places);
+        count = find_places(r, v, r->places);
         for (uint32_t k = 0; k + 1 < count; k++) {
-            r->slices[r->slice_count++] = (gni_slice){places[k], places[k + 1], ends};
+            r->slices[r->slice_count++] = (gni_slice){r->places[k], r->places[k + 1], ends};
             for (uint32_t t = 0; t < v->term_count; t++, ends++)
-                for (int side = 0; side < 2; side++)
-                    r->slice_ends[2 * (size_t)ends + (size_t)side] =
-                        beside(r, &r->terms[v->first_term + t], places[k + (uint32_t)side], !side);
+                for (uint32_t side = 0; side < 2; side++)
+                    r->slice_ends[2 * ends + side] =
+                        beside(r, &r->terms[v->first_term + t], r->places[k + side], !side);
         }
         v->slice_count = (uint16_t)(r->slice_count - v->first_slice);
     }
-    gni_free(r->context, places);
-    return GN_OK;
 }

@@ -88,7 +88,14 @@ enum {
 };
 
 /* Scales and upsamplings that are known apart. */
-enum { GN_VARIANT_FULL, GN_VARIANT_HALF, GN_VARIANT_HALF_DEPTH, GN_VARIANT_QUARTER, GN_VARIANT_QUARTER_DEPTH, GN_VARIANT_COUNT };
+enum {
+    GN_VARIANT_FULL,
+    GN_VARIANT_HALF,
+    GN_VARIANT_HALF_DEPTH,
+    GN_VARIANT_QUARTER,
+    GN_VARIANT_QUARTER_DEPTH,
+    GN_VARIANT_COUNT
+};
 
 typedef struct gn_knowledge {
     struct gn_known_way {
@@ -144,7 +151,7 @@ typedef struct gn_selection {
     gn_possible possible;
     double target_pixels;
     gn_budget budget;
-    double host_ms; /* of a frame, without shadows */
+    double host_ms;      /* of a frame, without shadows */
     const double *gains; /* [GN_METHOD_TOTAL] by which times are to be multiplied [1] */
     int has_proxies;
     int updates; /* the most frames for which masks may be used: 1, 2, 4 [1] */
@@ -161,8 +168,9 @@ typedef struct gn_choice {
     gn_accuracy granted;
     double suitability; /* 0 to 100 */
     uint32_t rule;      /* that holds most of those that bound its suitability; UINT32_MAX: none does */
-    uint16_t feasible, affordable, equal; /* ways: that are possible; that the budget pays too; of them as accurate and as cheap */
-    int is_over_budget;                   /* no way of the least quality asked for is affordable: this is the cheapest of it */
+    uint16_t feasible, affordable,
+        equal;          /* ways: that are possible; that the budget pays too; of them as accurate and as cheap */
+    int is_over_budget; /* no way of the least quality asked for is affordable: this is the cheapest of it */
 } gn_choice;
 
 enum { GN_MOST_SELECTED = 64 }; /* lights */

@@ -43,6 +43,7 @@ typedef struct gni_slice {
     uint32_t first_end;
 } gni_slice;
 
+/* All in one block. */
 struct gn_rules {
     gn_context *context;
     char *text, *names;
@@ -53,12 +54,13 @@ struct gn_rules {
     uint16_t *code, *thens;
     gni_slice *slices;
     double *slice_ends;
+    double *places;  /* of one output while slices are made */
     double *degrees; /* [term_count] memberships of inputs' terms, activations of outputs' */
     uint32_t input_count, output_count, term_count, point_count, rule_count, code_count, then_count, slice_count;
 };
 
 /* fuzzy.c: how much of a term a value is. */
 double gni_membership(const gn_rules *r, const gni_term *term, double x);
-/* fuzzy.c: slices of outputs by COG, and room for degrees. */
-gn_result gni_prepare_rules(gn_rules *rules);
+/* fuzzy.c: slices of outputs by COG. */
+void gni_prepare_rules(gn_rules *rules);
 #endif

@@ -15,14 +15,21 @@ enum {
 };
 
 /* Why a way is not taken; GNI_WAY_MAY if it may. */
-typedef enum gni_refusal { GNI_WAY_MAY, GNI_WAY_UNKNOWN, GNI_WAY_IMPOSSIBLE, GNI_WAY_TOO_LARGE, GNI_WAY_UNWANTED } gni_refusal;
+typedef enum gni_refusal {
+    GNI_WAY_MAY,
+    GNI_WAY_UNKNOWN,
+    GNI_WAY_IMPOSSIBLE,
+    GNI_WAY_TOO_LARGE,
+    GNI_WAY_UNWANTED
+} gni_refusal;
 
 typedef struct gni_candidate {
     gn_way way;
     int variant;
     gn_accuracy accuracy;
     gn_cost cost;
-    double share; /* of the budget that is left for shadows: the greater of time's and energy's; 0 where there is none */
+    double
+        share; /* of the budget that is left for shadows: the greater of time's and energy's; 0 where there is none */
 } gni_candidate;
 
 /* select.c: way number n of a light. */
@@ -32,7 +39,7 @@ gni_refusal gni_consider_way(const gn_selection *s, uint32_t light, const gn_way
 
 /* suitability.c: what rules say of a light. */
 typedef struct gni_suits {
-    gn_facts facts; /* with headroom */
+    gn_facts facts;     /* with headroom */
     uint32_t knobs[16]; /* outputs of the rules by knob; UINT32_MAX: not named */
     double outputs[64];
     float strengths[256];
@@ -56,7 +63,7 @@ typedef struct gni_learner {
     double host_ms, gains[GN_METHOD_TOTAL];
     double variance[GNI_LEARNED][GNI_LEARNED];
     double deviation; /* of frames from their predictions, as a share */
-    int far; /* residuals in a row that are far beyond that: above 0, or below */
+    int far;          /* residuals in a row that are far beyond that: above 0, or below */
 } gni_learner;
 
 void gni_learn_start(gni_learner *l);

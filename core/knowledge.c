@@ -84,8 +84,8 @@ void gn_knowledge_default(gn_knowledge *out)
 
 /* ------------------------------------------------------------------ reading */
 
-static const char *const columns[] = {"method",     "scale",        "upsample",     "accuracy",     "us_setup",
-                                      "us_index",   "us_fragment",  "us_pixel",     "us_switch",    "bytes_setup",
+static const char *const columns[] = {"method",      "scale",          "upsample",    "accuracy",    "us_setup",
+                                      "us_index",    "us_fragment",    "us_pixel",    "us_switch",   "bytes_setup",
                                       "bytes_index", "bytes_fragment", "bytes_pixel", "bytes_switch"};
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
@@ -113,8 +113,8 @@ static void read_row(gni_scan *s, gn_knowledge *k)
     read_word(s, upsample);
     read_word(s, accuracy);
     m = (int)gn_method_by_name(method, &one_sided);
-    while (v < GN_VARIANT_COUNT && (gni_variant_scale(v) != scale || (gni_variant_upsample(v) == GN_UPSAMPLE_DEPTH) !=
-                                                                          (strcmp(upsample, "depth") == 0)))
+    while (v < GN_VARIANT_COUNT && (gni_variant_scale(v) != scale ||
+                                    (gni_variant_upsample(v) == GN_UPSAMPLE_DEPTH) != (strcmp(upsample, "depth") == 0)))
         v++;
     if (s->result == GN_OK && (m == GN_METHOD_TOTAL || v == GN_VARIANT_COUNT || !exists(m, v)))
         gni_scan_fail(s, at, "there is no such way (%s, %g, %s)", method, scale, upsample);

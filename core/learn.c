@@ -10,17 +10,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LEAST_GAIN  0.25
-#define MOST_GAIN   4.0
-#define START_GAIN  0.1    /* variance of a gain that nothing was seen of */
-#define START_HOST  1.0    /* and of the host's time, as a share of a frame's squared */
-#define WALK_GAIN   1e-6   /* what a frame adds to them */
-#define WALK_HOST   1e-6
-#define NOISE       1e-3   /* of a frame's time at least, as a share of it squared */
-#define FAR         3.0    /* times the usual residual */
-#define SURE        2      /* such frames in a row, on one side */
-#define FORGETS     0.02   /* of the usual residual, by a frame */
-#define USUAL       0.03   /* before anything is seen */
+#define LEAST_GAIN 0.25
+#define MOST_GAIN  4.0
+#define START_GAIN 0.1  /* variance of a gain that nothing was seen of */
+#define START_HOST 1.0  /* and of the host's time, as a share of a frame's squared */
+#define WALK_GAIN  1e-6 /* what a frame adds to them */
+#define WALK_HOST  1e-6
+#define NOISE      1e-3 /* of a frame's time at least, as a share of it squared */
+#define FAR        3.0  /* times the usual residual */
+#define SURE       2    /* such frames in a row, on one side */
+#define FORGETS    0.02 /* of the usual residual, by a frame */
+#define USUAL      0.03 /* before anything is seen */
 
 void gni_learn_start(gni_learner *l)
 {
@@ -61,7 +61,9 @@ void gni_learn(gni_learner *l, const double parts[GN_METHOD_TOTAL], double ms)
     memcpy(x + 1, parts, GN_METHOD_TOTAL * sizeof *x);
     residual = ms - gni_predict(l, parts);
     share = residual / ms;
-    l->far = fabs(share) <= FAR * l->deviation ? 0 : l->far * share > 0 ? l->far + (share > 0 ? 1 : -1) : (share > 0 ? 1 : -1);
+    l->far = fabs(share) <= FAR * l->deviation ? 0
+             : l->far * share > 0              ? l->far + (share > 0 ? 1 : -1)
+                                               : (share > 0 ? 1 : -1);
     if (abs(l->far) >= SURE)
         l->variance[0][0] += residual * residual;
     /* of an even spread the mean distance is 0.8 of its deviation; what is far counts as far only */
@@ -76,7 +78,8 @@ void gni_learn(gni_learner *l, const double parts[GN_METHOD_TOTAL], double ms)
         for (int k = 0; k < GNI_LEARNED; k++)
             l->variance[i][k] -= gain[i] * gain[k] / spread;
     for (int i = 0; i < GNI_LEARNED; i++) {
-        const double most = i ? START_GAIN : START_HOST * ms * ms, grown = l->variance[i][i] + (i ? WALK_GAIN : WALK_HOST * ms * ms);
+        const double most = i ? START_GAIN : START_HOST * ms * ms,
+                     grown = l->variance[i][i] + (i ? WALK_GAIN : WALK_HOST * ms * ms);
 
         l->variance[i][i] = fmin(grown, fmax(most, l->variance[i][i]));
     }

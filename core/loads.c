@@ -90,7 +90,8 @@ static void place(double out[4], const gn_mesh_info *mesh, const gn_record *r, u
     const float *m = index % 2u ? r->far_matrix : r->near_matrix;
 
     for (int k = 0; k < 4; k++)
-        out[k] = (double)m[k] * (double)p[0] + (double)m[4 + k] * (double)p[1] + (double)m[8 + k] * (double)p[2] + (double)m[12 + k];
+        out[k] = (double)m[k] * (double)p[0] + (double)m[4 + k] * (double)p[1] + (double)m[8 + k] * (double)p[2] +
+                 (double)m[12 + k];
 }
 
 static double area_of_triangles(const gn_plan *plan, const gn_record *r, const window *w, const uint16_t *indices,
@@ -115,7 +116,8 @@ typedef struct sampler {
     double area;
 } sampler;
 
-static void sample(sampler *s, const gn_plan *plan, const gn_record *r, uint32_t first, uint32_t count, uint32_t of_a_piece)
+static void sample(sampler *s, const gn_plan *plan, const gn_record *r, uint32_t first, uint32_t count,
+                   uint32_t of_a_piece)
 {
     const uint16_t *indices = (r->is_cached ? plan->cached_indices : plan->indices) + first;
     const uint32_t pieces = count / (3 * of_a_piece);
@@ -126,7 +128,8 @@ static void sample(sampler *s, const gn_plan *plan, const gn_record *r, uint32_t
         if (!is_set)
             set_window(&w, plan, r->scissor);
         is_set = 1;
-        s->area += s->step * area_of_triangles(plan, r, &w, indices + 3 * (size_t)of_a_piece * (size_t)s->next, of_a_piece);
+        s->area +=
+            s->step * area_of_triangles(plan, r, &w, indices + 3 * (size_t)of_a_piece * (size_t)s->next, of_a_piece);
     }
     s->next -= pieces;
 }
@@ -155,8 +158,8 @@ static double border_of(const gn_plan *plan, const gn_plan_object *object)
             high[axis] = fmax(high[axis], fmin(at[axis] / at[3], 1.0));
         }
     }
-    return (fmax(high[0] - low[0], 0.0) * plan->target.width + fmax(high[1] - low[1], 0.0) * plan->target.height) / 2.0 /
-           ((double)plan->target.width + plan->target.height);
+    return (fmax(high[0] - low[0], 0.0) * plan->target.width + fmax(high[1] - low[1], 0.0) * plan->target.height) /
+           2.0 / ((double)plan->target.width + plan->target.height);
 }
 
 void gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_load *load, gn_facts *facts)
@@ -177,7 +180,8 @@ void gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_l
             continue;
         sides += r->side_count / 6;
         caps += (r->light_cap_count + r->dark_cap_count + r->near_cap_count + r->turned_cap_count) / 3;
-        load->indices += r->light_cap_count + r->side_count + r->dark_cap_count + r->near_cap_count + r->turned_cap_count;
+        load->indices +=
+            r->light_cap_count + r->side_count + r->dark_cap_count + r->near_cap_count + r->turned_cap_count;
     }
     samples = samples ? samples : SAMPLES;
     of_sides.step = fmax(1.0, 2.0 * sides / samples);

@@ -1,4 +1,4 @@
-/* rules.c - reads Fuzzy Control Language (IEC 61131-7, annex on FCL) into what fuzzy.c evaluates. gn_rules.h says which part of it.
+/* rules.c - reads Fuzzy Control Language (IEC 61131-7) into what fuzzy.c evaluates. gn_rules.h says which part of it.
  *
  * Room is cut before anything is read: no text holds more variables than colons, more terms and points than equals signs and
  * parentheses, more rules than semicolons, more steps of a rule than words. */
@@ -410,29 +410,61 @@ static void read_text(reader *p)
 
 /* ------------------------------------------------------------------ memory */
 
-static int cut(gn_rules *r, const char *text, size_t length)
-{
-    size_t of[128] = {0}, words = 1;
+/* How many of each character there are, and at most how many words. */
+typedef struct counts {
+    size_t of[128], words, length;
+} counts;
 
+static void count(counts *c, const char *text, size_t length)
+{
+    memset(c, 0, sizeof *c);
+    c->words = 1;
+    c->length = length;
     for (size_t i = 0; i < length; i++) {
-        of[(unsigned char)text[i] & 127u]++;
-        words += strchr(" \t\r\n()", text[i]) != NULL; /* one of these is between any two words of a rule */
+        c->of[(unsigned char)text[i] & 127u]++;
+        c->words += strchr(" \t\r\n()", text[i]) != NULL; /* one of these is between any two words of a rule */
     }
-    r->text = gni_alloc(r->context, length + 1, 1);
-    r->names = gni_alloc(r->context, length + 2, 1);
-    r->inputs = gni_alloc(r->context, of[':'] + 1, sizeof *r->inputs);
-    r->outputs = gni_alloc(r->context, of[':'] + 1, sizeof *r->outputs);
-    r->terms = gni_alloc(r->context, of['='] + 1, sizeof *r->terms);
-    r->points = gni_alloc(r->context, of['='] + of['('] + 1, sizeof *r->points);
-    r->rules = gni_alloc(r->context, of[';'] + 2, sizeof *r->rules);
-    r->code = gni_alloc(r->context, words, sizeof *r->code);
-    r->thens = gni_alloc(r->context, words, sizeof *r->thens);
-    return r->text && r->names && r->inputs && r->outputs && r->terms && r->points && r->rules && r->code && r->thens;
+}
+
+static void *cut(gn_rules *r, size_t *used, size_t number, size_t size)
+{
+    void *at = r ? (unsigned char *)r + *used : NULL;
+
+    *used += (number * size + 7) / 8 * 8;
+    return at;
+}
+
+/* The arrays behind the rules themselves; rules NULL: only how much they are. */
+static size_t lay_out(gn_rules *rules, const counts *c)
+{
+    const size_t points = c->of['='] + c->of['('] + 1, slices = points + 2 * c->of[':'];
+    size_t used = 0;
+    gn_rules r;
+
+    cut(rules, &used, 1, sizeof r);
+    memset(&r, 0, sizeof r);
+    r.text = cut(rules, &used, c->length + 1, 1);
+    r.names = cut(rules, &used, c->length + 2, 1);
+    r.inputs = cut(rules, &used, c->of[':'] + 1, sizeof *r.inputs);
+    r.outputs = cut(rules, &used, c->of[':'] + 1, sizeof *r.outputs);
+    r.terms = cut(rules, &used, c->of['='] + 1, sizeof *r.terms);
+    r.points = cut(rules, &used, points, sizeof *r.points);
+    r.rules = cut(rules, &used, c->of[';'] + 2, sizeof *r.rules);
+    r.code = cut(rules, &used, c->words, sizeof *r.code);
+    r.thens = cut(rules, &used, c->words, sizeof *r.thens);
+    r.degrees = cut(rules, &used, c->of['='] + 1, sizeof *r.degrees);
+    r.places = cut(rules, &used, points + 2, sizeof *r.places);
+    r.slices = cut(rules, &used, slices, sizeof *r.slices);
+    r.slice_ends = cut(rules, &used, 2 * GNI_MOST_TERMS * slices, sizeof *r.slice_ends);
+    if (rules)
+        *rules = r;
+    return used;
 }
 
 gn_result gn_rules_create(gn_context *context, const char *text, size_t length, gn_rules **rules)
 {
     gn_rules *r;
+    counts c;
     reader p;
 
     if (!context || !rules)
@@ -444,45 +476,29 @@ gn_result gn_rules_create(gn_context *context, const char *text, size_t length, 
     }
     if (length > 65535)
         return gn_fail(context, GN_E_ARG, "rules: a text of at most 65535 bytes (%lu)", (unsigned long)length);
-    r = gni_alloc(context, 1, sizeof *r);
+    count(&c, text, length);
+    r = gni_alloc(context, lay_out(NULL, &c), 1);
     if (!r)
-        return gn_fail(context, GN_E_MEMORY, "rules: no memory");
-    memset(r, 0, sizeof *r);
+        return gn_fail(context, GN_E_MEMORY, "rules: no memory for a text of %lu bytes", (unsigned long)length);
+    lay_out(r, &c);
     r->context = context;
-    if (!cut(r, text, length)) {
-        gn_rules_destroy(r);
-        return gn_fail(context, GN_E_MEMORY, "rules: no memory for %lu bytes", (unsigned long)length);
-    }
     memcpy(r->text, text, length);
     r->text[length] = '\0';
     memset(&p, 0, sizeof p);
     p.r = r;
     gni_scan_start(&p.scan, context, "rules", r->text, length);
     read_text(&p);
-    if (p.scan.result == GN_OK)
-        p.scan.result = gni_prepare_rules(r);
-    if (p.scan.result == GN_OK)
+    if (is_ok(&p)) {
+        gni_prepare_rules(r);
         *rules = r;
-    else
+    } else {
         gn_rules_destroy(r);
+    }
     return p.scan.result;
 }
 
 void gn_rules_destroy(gn_rules *r)
 {
-    if (!r)
-        return;
-    gni_free(r->context, r->slice_ends);
-    gni_free(r->context, r->slices);
-    gni_free(r->context, r->degrees);
-    gni_free(r->context, r->thens);
-    gni_free(r->context, r->code);
-    gni_free(r->context, r->rules);
-    gni_free(r->context, r->points);
-    gni_free(r->context, r->terms);
-    gni_free(r->context, r->outputs);
-    gni_free(r->context, r->inputs);
-    gni_free(r->context, r->names);
-    gni_free(r->context, r->text);
-    gni_free(r->context, r);
+    if (r)
+        gni_free(r->context, r);
 }

@@ -34,11 +34,13 @@ static double memory_of(const gn_selection *s, const gn_way *way)
     return pixels * (8.0 + 4.0 * ((s->light_count + 3) / 4));
 }
 
-static void find_cost(const gn_selection *s, const gn_light_state *light, const struct gn_known_way *known, gni_candidate *c)
+static void find_cost(const gn_selection *s, const gn_light_state *light, const struct gn_known_way *known,
+                      gni_candidate *c)
 {
     const gn_way *way = &c->way;
     const double area = (double)way->scale * way->scale, gain = s->gains ? s->gains[way->method] : 1.0;
-    const int is_small = way->method != GN_METHOD_REFINE, is_direct = way->method == GN_METHOD_STENCIL && way->scale == 1;
+    const int is_small = way->method != GN_METHOD_REFINE,
+              is_direct = way->method == GN_METHOD_STENCIL && way->scale == 1;
     const double counts[GN_COST_COUNT] = {1.0 / s->light_count, light->load.indices * (way->proxies ? 0.5 : 1.0),
                                           light->load.fragments / (is_small ? area : 1.0),
                                           light->load.pixels / (is_small ? area : 1.0), is_direct ? 1.0 : 2.0};
@@ -67,7 +69,9 @@ static gn_accuracy accuracy_of(const gn_light_state *light, const struct gn_know
     if (way->proxies)
         most = GN_ACCURACY_FAIR;
     if (way->update_every > 1) {
-        const gn_accuracy late = is_still ? GN_ACCURACY_FINE : way->update_every == 2 ? GN_ACCURACY_FAIR : GN_ACCURACY_ROUGH;
+        const gn_accuracy late = is_still                 ? GN_ACCURACY_FINE
+                                 : way->update_every == 2 ? GN_ACCURACY_FAIR
+                                                          : GN_ACCURACY_ROUGH;
 
         most = late < most ? late : most;
     }
@@ -205,7 +209,8 @@ static double cheapest_of(const gn_selection *s, uint32_t light, int accuracy, d
     for (uint32_t n = 0; n < GNI_WAYS; n++) {
         gni_candidate c;
 
-        if (gni_consider(s, light, n, &c) == GNI_WAY_MAY && (accuracy < 0 || (int)c.accuracy == accuracy) && c.share <= share)
+        if (gni_consider(s, light, n, &c) == GNI_WAY_MAY && (accuracy < 0 || (int)c.accuracy == accuracy) &&
+            c.share <= share)
             least = fmin(least, c.cost.ms);
     }
     return least;
@@ -213,8 +218,8 @@ static double cheapest_of(const gn_selection *s, uint32_t light, int accuracy, d
 
 /* Of a light's ways of one class (-1: of any) that take no more than the share, and as cheap as there are, what suits best; of
  * those that suit alike the cheapest. */
-static void prefer(const gn_selection *s, uint32_t light, int accuracy, double share, const gni_suits *suits, gn_choice *out,
-                   double *taken)
+static void prefer(const gn_selection *s, uint32_t light, int accuracy, double share, const gni_suits *suits,
+                   gn_choice *out, double *taken)
 {
     const double most = accuracy < 0 ? INFINITY : EQUAL * cheapest_of(s, light, accuracy, share);
     int is_taken = 0;
@@ -231,7 +236,8 @@ static void prefer(const gn_selection *s, uint32_t light, int accuracy, double s
             continue;
         out->equal++;
         suitability = gni_suitability(suits, &c.way, &output);
-        if (is_taken && (suitability < out->suitability || (suitability == out->suitability && c.cost.ms >= out->cost.ms)))
+        if (is_taken &&
+            (suitability < out->suitability || (suitability == out->suitability && c.cost.ms >= out->cost.ms)))
             continue;
         is_taken = 1;
         out->way = c.way;
@@ -288,8 +294,9 @@ gn_result gn_select(gn_context *context, const gn_selection *s, gn_choice *choic
                            s->budget.memory);
     for (uint32_t i = 0; i < s->light_count; i++)
         if (ladders[i].reaches[s->budget.quality] < s->budget.quality)
-            return gn_fail(context, GN_E_DEVICE, "gn_select: light %lu: no way that is possible here is %s: the best is %s",
-                           (unsigned long)i, gn_accuracy_name(s->budget.quality),
+            return gn_fail(context, GN_E_DEVICE,
+                           "gn_select: light %lu: no way that is possible here is %s: the best is %s", (unsigned long)i,
+                           gn_accuracy_name(s->budget.quality),
                            gn_accuracy_name(ladders[i].reaches[s->budget.quality]));
     order_by_importance(s, order);
     left = settle(s, ladders, order, level, &is_over);

@@ -64,8 +64,8 @@ static void put_sentence(gni_text *t, const gn_selection *s, const gn_choice *c,
 {
     put_way(t, &c->way);
     if (c->way.is_dropped) {
-        gni_put(t, ": no shadow, since no way of the %u that are possible is left in the budget%s", (unsigned)c->feasible,
-                s->budget.frame_ms > 0.0 || s->budget.energy_mw > 0.0 ? "," : "");
+        gni_put(t, ": no shadow, since no way of the %u that are possible is left in the budget%s",
+                (unsigned)c->feasible, s->budget.frame_ms > 0.0 || s->budget.energy_mw > 0.0 ? "," : "");
         put_budget(t, s);
         return;
     }
@@ -73,8 +73,8 @@ static void put_sentence(gni_text *t, const gn_selection *s, const gn_choice *c,
     put_budget(t, s);
     if (c->is_over_budget)
         gni_put(t, "; over budget: the cheapest that is %s at least", gn_accuracy_name(s->budget.quality));
-    gni_put(t, "; of %u ways that are possible %u are affordable, %u of them as accurate and as cheap", (unsigned)c->feasible,
-            (unsigned)c->affordable, (unsigned)c->equal);
+    gni_put(t, "; of %u ways that are possible %u are affordable, %u of them as accurate and as cheap",
+            (unsigned)c->feasible, (unsigned)c->affordable, (unsigned)c->equal);
     if (s->rules && c->rule != UINT32_MAX) {
         gni_put(t, "; suits by %.0f of 100: ", c->suitability);
         put_rule(t, s, c->rule);
@@ -110,7 +110,8 @@ static void put_rules(gni_text *t, const gn_selection *s, const gni_suits *suits
 }
 
 /* Each way, and why it is not the one. */
-static void put_candidates(gni_text *t, const gn_selection *s, uint32_t light, const gn_choice *c, const gni_suits *suits)
+static void put_candidates(gni_text *t, const gn_selection *s, uint32_t light, const gn_choice *c,
+                           const gni_suits *suits)
 {
     gni_put(t, "\nways:");
     for (uint32_t n = 0; n < GNI_WAYS; n++) {
@@ -118,7 +119,8 @@ static void put_candidates(gni_text *t, const gn_selection *s, uint32_t light, c
         uint32_t output;
         const gni_refusal refusal = gni_consider(s, light, n, &candidate);
 
-        if (refusal == GNI_WAY_UNKNOWN || refusal == GNI_WAY_UNWANTED || (refusal == GNI_WAY_IMPOSSIBLE && candidate.way.update_every > 1) ||
+        if (refusal == GNI_WAY_UNKNOWN || refusal == GNI_WAY_UNWANTED ||
+            (refusal == GNI_WAY_IMPOSSIBLE && candidate.way.update_every > 1) ||
             (refusal == GNI_WAY_IMPOSSIBLE && candidate.way.proxies))
             continue;
         gni_put(t, "\n  ");

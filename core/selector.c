@@ -18,8 +18,8 @@
 #define PANIC       2    /* frames over budget in a row */
 #define FREE        0.9  /* of what is left, that spending more may use */
 #define DEVIATIONS  2.5
-#define FADES       0.3   /* share of a peak of load that is forgotten in the frames that spending waits for */
-#define CHEAPER     0.8   /* times the cost: as accurate, and worth a change */
+#define FADES       0.3 /* share of a peak of load that is forgotten in the frames that spending waits for */
+#define CHEAPER     0.8 /* times the cost: as accurate, and worth a change */
 
 struct gn_selector {
     gn_context *context;
@@ -32,7 +32,7 @@ struct gn_selector {
     gn_way ways[GN_MOST_SELECTED];
     gn_choice wanted[GN_MOST_SELECTED];
     uint32_t light_count;
-    double parts[GN_METHOD_TOTAL]; /* of the frame at hand: ms predicted by method, not corrected */
+    double parts[GN_METHOD_TOTAL];     /* of the frame at hand: ms predicted by method, not corrected */
     uint32_t since, since_up, wait_up; /* frames */
     int has_spent;                     /* the last change was to spend more */
     uint32_t over;                     /* measured ones over budget, in a row */

@@ -5,7 +5,17 @@
 #include <string.h>
 
 /* Outputs of rules by what they speak of: methods in gn_method's order from stencil on, then the rest. */
-enum { METHODS = GN_METHOD_TOTAL - GN_METHOD_STENCIL, FULL = METHODS, HALF, QUARTER, BILINEAR, DEPTH, LATE, PROXIES, KNOBS };
+enum {
+    METHODS = GN_METHOD_TOTAL - GN_METHOD_STENCIL,
+    FULL = METHODS,
+    HALF,
+    QUARTER,
+    BILINEAR,
+    DEPTH,
+    LATE,
+    PROXIES,
+    KNOBS
+};
 
 static const char *const rest[] = {"full", "half", "quarter", "bilinear", "depth", "late", "proxies"};
 
@@ -28,9 +38,11 @@ double *gn_fact(gn_facts *f, int fact)
 void gni_find_knobs(const gn_rules *rules, gni_suits *out)
 {
     for (int i = 0; i < KNOBS; i++)
-        out->knobs[i] = rules ? gn_rules_find_output(rules, i < METHODS ? gn_method_describe((gn_method)(i + GN_METHOD_STENCIL))->name
-                                                                        : rest[i - METHODS])
-                              : UINT32_MAX;
+        out->knobs[i] =
+            rules
+                ? gn_rules_find_output(rules, i < METHODS ? gn_method_describe((gn_method)(i + GN_METHOD_STENCIL))->name
+                                                          : rest[i - METHODS])
+                : UINT32_MAX;
 }
 
 gn_result gni_check_rules(gn_context *context, const gn_rules *rules)

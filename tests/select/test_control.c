@@ -51,7 +51,8 @@ static void settles(void **state)
                       plant_over(&run, SETTLED, PLANT_FRAMES), plant_changes(&run, SETTLED, PLANT_FRAMES),
                       plant_changes(&run, PLANT_FRAMES / 2, PLANT_FRAMES));
         if (plant_over(&run, SETTLED, PLANT_FRAMES) > 0.02)
-            fail_msg("%s: %g of the frames are over budget", plant_load_names[load], plant_over(&run, SETTLED, PLANT_FRAMES));
+            fail_msg("%s: %g of the frames are over budget", plant_load_names[load],
+                     plant_over(&run, SETTLED, PLANT_FRAMES));
         for (int f = SETTLED; f + 60 <= PLANT_FRAMES; f++)
             if (load != PLANT_STEP && load != PLANT_HOST && plant_changes(&run, f, f + 60) > 1.0)
                 fail_msg("%s: %g changes in the second from frame %d on", plant_load_names[load],

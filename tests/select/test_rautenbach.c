@@ -35,15 +35,15 @@ static void replays_his_transitions(void **state)
         double moving, nearness;
         algorithm chosen;
     } steps[] = {
-        {0, close_by, SUBDIVISION},  /* static lights */
-        {6, close_by, HYBRID},       /* 1: six moving ones, casters close by */
-        {13, far_off, MAPPING},      /* 2: thirteen, casters a significant distance away */
-        {16, far_off, HYBRID},       /* 3: sixteen, casters where they are */
-        {9, close_by, HYBRID},       /* nine, casters close by: it is selected again */
-        {16, close_by, HYBRID},      /* in reverse: no other is selected */
-        {13, far_off, MAPPING},      /* 4 */
-        {6, close_by, HYBRID},       /* back */
-        {0, close_by, SUBDIVISION},  /* 5: all lights static */
+        {0, close_by, SUBDIVISION}, /* static lights */
+        {6, close_by, HYBRID},      /* 1: six moving ones, casters close by */
+        {13, far_off, MAPPING},     /* 2: thirteen, casters a significant distance away */
+        {16, far_off, HYBRID},      /* 3: sixteen, casters where they are */
+        {9, close_by, HYBRID},      /* nine, casters close by: it is selected again */
+        {16, close_by, HYBRID},     /* in reverse: no other is selected */
+        {13, far_off, MAPPING},     /* 4 */
+        {6, close_by, HYBRID},      /* back */
+        {0, close_by, SUBDIVISION}, /* 5: all lights static */
     };
     char text[8192];
     FILE *f = fopen("rules/rautenbach.fcl", "rb");

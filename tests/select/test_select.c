@@ -76,8 +76,9 @@ static void make_world(world *w)
 
 static int variant_of(const gn_way *way)
 {
-    return way->scale == 1 ? GN_VARIANT_FULL
-                           : (way->scale == 2 ? GN_VARIANT_HALF : GN_VARIANT_QUARTER) + (way->upsample == GN_UPSAMPLE_DEPTH);
+    return way->scale == 1
+               ? GN_VARIANT_FULL
+               : (way->scale == 2 ? GN_VARIANT_HALF : GN_VARIANT_QUARTER) + (way->upsample == GN_UPSAMPLE_DEPTH);
 }
 
 static void check_choice(const world *w, const gn_choice *c)
@@ -282,7 +283,8 @@ static void what_cannot_be_says_so(void **state)
     memset(&w.selection.budget, 0, sizeof w.selection.budget);
     w.selection.budget.quality = GN_ACCURACY_EXACT;
     assert_int_equal(gn_select(test_context, &w.selection, choices), GN_E_DEVICE);
-    assert_string_equal(gn_message(test_context), "gn_select: light 0: no way that is possible here is exact: the best is fair");
+    assert_string_equal(gn_message(test_context),
+                        "gn_select: light 0: no way that is possible here is exact: the best is fair");
     w.selection.budget.frame_ms = -1.0;
     assert_int_equal(gn_select(test_context, &w.selection, choices), GN_E_ARG);
     assert_non_null(strstr(gn_message(test_context), "(-1 ms"));
@@ -306,8 +308,9 @@ static void reads_knowledge(void **state)
          "line 3, column 1: this way has a row already"},
         {"stencil,1,none,exact,1,x,1,1,1,1,1,1,1,1\n", "a number is missing ('x')"},
     };
-    static const char good[] = KNOWLEDGE "stencil,1,none,exact,1,2.5,3e-3,4,5,6,7,8,9,10\nrefine,2,bilinear,fine,1,1,1,1,1,1,1,1,1,1\n"
-                                         "count,4,depth,rough,1,1,1,1,1,1,1,1,1,1\n";
+    static const char good[] =
+        KNOWLEDGE "stencil,1,none,exact,1,2.5,3e-3,4,5,6,7,8,9,10\nrefine,2,bilinear,fine,1,1,1,1,1,1,1,1,1,1\n"
+                  "count,4,depth,rough,1,1,1,1,1,1,1,1,1,1\n";
     gn_knowledge k;
     int known = 0;
 

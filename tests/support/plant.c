@@ -31,7 +31,8 @@ static double load_at(plant_load load, int frame)
     case PLANT_SQUARE:
         return frame / 150 % 2 ? 2.5 : 0.8;
     case PLANT_RECORDED:
-        return recorded[frame / 15 % count] + (recorded[(frame / 15 + 1) % count] - recorded[frame / 15 % count]) * (frame % 15) / 15.0;
+        return recorded[frame / 15 % count] +
+               (recorded[(frame / 15 + 1) % count] - recorded[frame / 15 % count]) * (frame % 15) / 15.0;
     default:
         return 1.0;
     }

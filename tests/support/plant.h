@@ -8,7 +8,16 @@
 
 enum { PLANT_FRAMES = 3600, PLANT_LIGHTS = 3 };
 
-typedef enum plant_load { PLANT_STEP, PLANT_RAMP, PLANT_SINE, PLANT_SQUARE, PLANT_NOISE, PLANT_HOST, PLANT_RECORDED, PLANT_LOADS } plant_load;
+typedef enum plant_load {
+    PLANT_STEP,
+    PLANT_RAMP,
+    PLANT_SINE,
+    PLANT_SQUARE,
+    PLANT_NOISE,
+    PLANT_HOST,
+    PLANT_RECORDED,
+    PLANT_LOADS
+} plant_load;
 typedef enum plant_control { PLANT_SELECTOR, PLANT_FULL, PLANT_HALF, PLANT_PID, PLANT_CONTROLS } plant_control;
 
 extern const char *const plant_load_names[PLANT_LOADS];
