@@ -32,7 +32,7 @@ INC_port      := -Iport
 INC_core      := $(INC_port) -Icore -I$(B)/rules
 INC_gles      := $(INC_core) -Igles -I$(B)/gles
 INC_platforms := -Iplatforms
-INC_tools      = -D_POSIX_C_SOURCE=200809L $(INC_core) -Igles -Iplatforms -Itools -Itools/scene -Itools/truth -Itools/stage -Itools/measure -I$(B)/tools/stage $(shell $(PKG_CONFIG) --cflags libcjson libpng)
+INC_tools      = -D_POSIX_C_SOURCE=200809L $(INC_core) -Igles -Iplatforms -Itools -Itools/scene -Itools/truth -Itools/stage -Itools/measure -Itools/calibrate -I$(B)/tools/stage $(shell $(PKG_CONFIG) --cflags libcjson libpng)
 INC_tests      = $(INC_tools) -Itests/support $(shell $(PKG_CONFIG) --cflags cmocka)
 INCLUDE        = $(INC_$(firstword $(subst /, ,$<)))
 

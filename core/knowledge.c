@@ -46,16 +46,36 @@ static int exists(int method, int variant)
 
 /* ------------------------------------------------------------------ the default */
 
-/* Of a board that fills 100 million pixels a second, each counted fragment in this many bytes, and this many times as dear as a
- * stencil's. z-fail and z-pass are what stencil is measured by, and are not chosen. */
+/* Microseconds at full size, by method: what was fitted to half of the test scenes on llvmpipe, two threads (bench_predict). z-fail
+ * and z-pass are what stencil is measured by, and are not chosen. */
 static const struct {
-    double bytes, times;
-    gn_accuracy accuracy;
+    float setup, index, fragment, pixel, pass; /* pass: of a switch */
+    uint8_t bytes;                             /* of a fragment */
+    uint8_t accuracy;
 } defaults[GN_METHOD_TOTAL] = {
-    [GN_METHOD_STENCIL] = {8, 1, GN_ACCURACY_EXACT}, [GN_METHOD_REFINE] = {8, 1.5, GN_ACCURACY_FINE},
-    [GN_METHOD_COUNT] = {12, 2, GN_ACCURACY_EXACT},  [GN_METHOD_SIGNED] = {12, 3, GN_ACCURACY_EXACT},
-    [GN_METHOD_ALPHA] = {12, 4, GN_ACCURACY_FAIR},   [GN_METHOD_SCREEN] = {12, 4, GN_ACCURACY_FAIR},
+    [GN_METHOD_STENCIL] = {350, 0.03f, 0.0029f, 0.0f, 20, 8, GN_ACCURACY_EXACT},
+    [GN_METHOD_REFINE] = {0, 0.19f, 0.0028f, 0.0175f, 200, 8, GN_ACCURACY_FINE},
+    [GN_METHOD_COUNT] = {600, 0.08f, 0.0076f, 0.004f, 170, 12, GN_ACCURACY_EXACT},
+    [GN_METHOD_SIGNED] = {400, 0.1f, 0.0078f, 0.02f, 80, 12, GN_ACCURACY_EXACT},
+    [GN_METHOD_ALPHA] = {300, 0.1f, 0.0106f, 0.01f, 90, 12, GN_ACCURACY_FAIR},
+    [GN_METHOD_SCREEN] = {900, 0.08f, 0.015f, 0.002f, 150, 12, GN_ACCURACY_FAIR},
 };
+
+#define SLOWER 2.0 /* than that: an unknown board is taken for a slow one */
+
+/* Small masks: fragments are a fourth or a sixteenth, but each is of a triangle's border more often. */
+static void make_small(struct gn_known_way *k, int method, uint32_t scale, int is_depth)
+{
+    const int is_simple = method == GN_METHOD_STENCIL || method == GN_METHOD_COUNT;
+
+    k->us[GN_COST_SETUP] = is_depth ? 400.0 : 550.0;
+    k->us[GN_COST_INDEX] = is_simple ? fmax(k->us[GN_COST_INDEX], 0.05) * (is_depth ? 1.5 : 1.1) : 0.16;
+    k->us[GN_COST_FRAGMENT] *= scale == 2 ? 3.0 : 6.5;
+    k->us[GN_COST_PIXEL] = 0.0;
+    k->us[GN_COST_SWITCH] = is_depth ? 170.0 : 80.0;
+    k->bytes[GN_COST_PIXEL] += 4.0 * (is_depth ? 4.0 : 1.0) * scale * scale;
+    k->accuracy = scale == 2 ? GN_ACCURACY_FAIR : GN_ACCURACY_ROUGH;
+}
 
 void gn_knowledge_default(gn_knowledge *out)
 {
@@ -63,22 +83,22 @@ void gn_knowledge_default(gn_knowledge *out)
     for (int m = 0; m < GN_METHOD_TOTAL; m++)
         for (int v = 0; v < GN_VARIANT_COUNT; v++) {
             struct gn_known_way *k = &out->ways[m][v];
-            const uint32_t scale = gni_variant_scale(v);
-            const int is_depth = gni_variant_upsample(v) == GN_UPSAMPLE_DEPTH;
-            const double us[GN_COST_COUNT] = {200, 0.02, 0.01 * defaults[m].times,
-                                              /* of the mask's pixels: each is read by scale^2 of the frame's */
-                                              0.02 + (scale > 1 ? (is_depth ? 0.03 : 0.01) * scale * scale : 0), 100};
-            const double bytes[GN_COST_COUNT] = {0, 0, defaults[m].bytes,
-                                                 8 + (scale > 1 ? (is_depth ? 16.0 : 4.0) * scale * scale : 0), 0};
 
             if (!exists(m, v))
                 continue;
             k->is_known = 1;
-            memcpy(k->us, us, sizeof us);
-            memcpy(k->bytes, bytes, sizeof bytes);
-            k->accuracy = defaults[m].accuracy;
-            if (m != GN_METHOD_REFINE && scale > 1)
-                k->accuracy = scale == 2 ? GN_ACCURACY_FAIR : GN_ACCURACY_ROUGH;
+            k->us[GN_COST_SETUP] = (double)defaults[m].setup;
+            k->us[GN_COST_INDEX] = (double)defaults[m].index;
+            k->us[GN_COST_FRAGMENT] = (double)defaults[m].fragment;
+            k->us[GN_COST_PIXEL] = (double)defaults[m].pixel;
+            k->us[GN_COST_SWITCH] = (double)defaults[m].pass;
+            k->bytes[GN_COST_FRAGMENT] = defaults[m].bytes;
+            k->bytes[GN_COST_PIXEL] = 8.0;
+            k->accuracy = (gn_accuracy)defaults[m].accuracy;
+            if (m != GN_METHOD_REFINE && v != GN_VARIANT_FULL)
+                make_small(k, m, gni_variant_scale(v), gni_variant_upsample(v) == GN_UPSAMPLE_DEPTH);
+            for (int c = 0; c < GN_COST_COUNT; c++)
+                k->us[c] *= SLOWER;
         }
 }
 

@@ -33,7 +33,9 @@ int command_render(int count, char **arguments);
 int command_probe(int count, char **arguments);
 int command_methods(int count, char **arguments);
 int command_measure(int count, char **arguments);
+int command_calibrate(int count, char **arguments);
+int command_select(int count, char **arguments);
 
 /* The text of --help of each. */
-extern const char help_render[], help_probe[], help_methods[], help_measure[];
+extern const char help_render[], help_probe[], help_methods[], help_measure[], help_calibrate[], help_select[];
 #endif

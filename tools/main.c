@@ -49,6 +49,9 @@ static const struct {
     {"render", command_render, help_render, "draw a glTF scene with shadows into a picture"},
     {"probe", command_probe, help_probe, "what the GL contexts of this machine are and can do"},
     {"measure", command_measure, help_measure, "what each method costs here, and how far from the truth it is"},
+    {"calibrate", command_calibrate, help_calibrate,
+     "what each way to make shadows costs on this board, for the selector"},
+    {"select", command_select, help_select, "what the selector takes for a light of given facts, and why"},
     {"methods", command_methods, help_methods, "the methods, and what each needs"},
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

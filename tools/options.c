@@ -48,6 +48,16 @@ static int take(const option *o, const char *text)
         return 1;
     case OPTION_SIZE:
         return parse_size(o, text);
+    case OPTION_LIST: {
+        text_list *list = o->value;
+
+        if (list->count == TEXT_LIST_MOST) {
+            say("%s: is given more than %d times (%s)", o->name, TEXT_LIST_MOST, text);
+            return 0;
+        }
+        list->of[list->count++] = text;
+        return 1;
+    }
     case OPTION_WHOLE:
         if (!parse_number(o, text, &number))
             return 0;

@@ -2,10 +2,23 @@
 #ifndef OPTIONS_H
 #define OPTIONS_H
 
-typedef enum option_kind { OPTION_TEXT, OPTION_WHOLE, OPTION_NUMBER, OPTION_SIZE, OPTION_FLAG } option_kind;
+typedef enum option_kind {
+    OPTION_TEXT,
+    OPTION_WHOLE,
+    OPTION_NUMBER,
+    OPTION_SIZE,
+    OPTION_FLAG,
+    OPTION_LIST
+} option_kind;
+
+enum { TEXT_LIST_MOST = 32 };
+typedef struct text_list {
+    const char *of[TEXT_LIST_MOST];
+    int count;
+} text_list;
 
 /* One option of a command. `value` points to: const char * (TEXT), long (WHOLE), double (NUMBER), long[2] (SIZE),
- * int (FLAG). */
+ * int (FLAG), text_list (LIST: as often as it is given). */
 typedef struct option {
     const char *name; /* with its dashes */
     option_kind kind;

@@ -112,6 +112,22 @@ static void steer(double ms, double *integral, double *last_error, gn_way ways[P
         ways[i].scale = level < 1.5 ? 1 : level < 2.5 ? 2 : 4;
 }
 
+/* What the selector knows: the library's ways at round numbers, those of a slow GPU. */
+static void make_knowledge(gn_knowledge *k)
+{
+    static const double times[GN_METHOD_TOTAL] = {0, 0, 0, 1, 1.5, 2, 3, 4, 4}; /* a fragment's, of a stencil's */
+
+    gn_knowledge_default(k);
+    for (int m = 0; m < GN_METHOD_TOTAL; m++)
+        for (int v = 0; v < GN_VARIANT_COUNT; v++) {
+            const double scale = v == GN_VARIANT_FULL ? 1.0 : v <= GN_VARIANT_HALF_DEPTH ? 2.0 : 4.0;
+            const double reads = v == GN_VARIANT_FULL ? 0.0 : v % 2 ? 1.0 : 3.0; /* of the mask, by the frame's pixels */
+            const double us[GN_COST_COUNT] = {200, 0.02, 0.01 * times[m], 0.02 + 0.01 * reads * scale * scale, 100};
+
+            memcpy(k->ways[m][v].us, us, sizeof us);
+        }
+}
+
 int plant_simulate(gn_context *context, plant_load load, plant_control control, double noise, plant_run *out)
 {
     static const double factors[GN_METHOD_TOTAL] = {1, 1, 1, 1.3, 0.8, 1.2, 0.7, 1, 1};
@@ -123,14 +139,14 @@ int plant_simulate(gn_context *context, plant_load load, plant_control control, 
     double integral = 0.0, last_error = 0.0;
     uint32_t seed = 77;
 
-    gn_knowledge_default(&knowledge);
+    make_knowledge(&knowledge);
     board.knowledge = &knowledge;
     board.lights = lights;
     memset(&asked, 0, sizeof asked);
     asked.budget.frame_ms = out->budget_ms = BUDGET;
     asked.target_pixels = board.target_pixels;
     memset(asked.possible.variants, 0xff, sizeof asked.possible.variants);
-    if (control == PLANT_SELECTOR && gn_selector_create(context, NULL, NULL, 0, &selector) != GN_OK)
+    if (control == PLANT_SELECTOR && gn_selector_create(context, &knowledge, NULL, 0, &selector) != GN_OK)
         return 0;
     if (selector)
         gn_selector_set(selector, &asked);

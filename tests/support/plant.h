@@ -1,6 +1,6 @@
 /* plant.h - frames that nobody draws: what a board would take for them, so that controllers can be tried on any load.
  *
- * The board follows the default knowledge, but each method has a factor of its own that no controller is told, and every frame
+ * The board is as the selector knows it, but each method has a factor of its own that no controller is told, and every frame
  * differs by noise. Loads are multiples of a usual one, by frame. */
 #ifndef PLANT_H
 #define PLANT_H

@@ -1,59 +1,13 @@
 /* plot.c - see plot.h. Each panel's points go to gnuplot with its commands; the picture appears whole or not at all. */
-#define _POSIX_C_SOURCE 200809L
 #include "plot.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
+#include "plotter.h"
 
 #define LEAST 0.001 /* per cent: what is drawn for none */
-
-/* gnuplot, and the file that it makes. */
-typedef struct plotter {
-    FILE *pipe;
-    const char *path;
-    char part[1024];
-} plotter;
-
-static int start(plotter *p, const char *path, size_t columns, size_t rows)
-{
-    p->path = path;
-    snprintf(p->part, sizeof p->part, "%s.part", path);
-    if (system("command -v gnuplot > /dev/null 2>&1") != 0) {
-        say("%s: needs gnuplot, which is not installed", path);
-        return 0;
-    }
-    p->pipe = popen("gnuplot 2> /dev/null", "w");
-    if (!p->pipe) {
-        say("%s: gnuplot cannot be started", path);
-        return 0;
-    }
-    fprintf(p->pipe,
-            "set terminal svg size %lu,%lu dynamic font 'sans-serif,12' background '#ffffff'\nset output '%s'\n"
-            "set multiplot layout %lu,%lu\nset grid lc '#dddddd'\nset border lc '#555555'\nset key off\n",
-            (unsigned long)(560 * columns), (unsigned long)(380 * rows), p->part, (unsigned long)rows,
-            (unsigned long)columns);
-    return 1;
-}
-
-static int finish(plotter *p)
-{
-    fprintf(p->pipe, "unset multiplot\nset output\n");
-    if (pclose(p->pipe) == 0 && rename(p->part, p->path) == 0)
-        return 1;
-    say("%s: gnuplot fails", p->path);
-    remove(p->part);
-    return 0;
-}
-
-/* Names go into gnuplot's single quotes. */
-static void put_name(FILE *f, const char *name)
-{
-    for (; *name; name++)
-        fputc(*name == '\'' || *name == '"' || *name == '\\' || *name < ' ' ? '-' : *name, f);
-}
 
 static int is_plotted(const trade_rows *rows, size_t row, size_t panel)
 {
@@ -94,7 +48,7 @@ static size_t put_points(const trade_rows *rows, FILE *f, size_t panel, const ch
         else
             fprintf(f, "%g %g \"", last, last);
         if (!is_near(named, last, fmax(trade_error(rows, next), LEAST)))
-            put_name(f, trade_word(rows, next, "config"));
+            plotter_put_name(f, trade_word(rows, next, "config"));
         fprintf(f, "\"\n");
         count++;
     }
@@ -111,7 +65,7 @@ static void plot_panel(const trade_rows *rows, FILE *f, size_t panel, const char
     dominated = put_points(rows, f, panel, column, 1);
     frontier = put_points(rows, f, panel, column, 0);
     fprintf(f, "set title '");
-    put_name(f, name);
+    plotter_put_name(f, name);
     fprintf(
         f,
         "' noenhanced\nset xlabel '%s'\nset ylabel 'wrong pixels, %% (%g: none)'\nset logscale xy\nset xrange [*:*]\n"
@@ -132,13 +86,13 @@ int plot_trade(const trade_rows *rows, const char *path)
 {
     plotter p;
 
-    if (rows->panel_count == 0 || !start(&p, path, 2, rows->panel_count))
+    if (rows->panel_count == 0 || !plotter_start(&p, path, 2, rows->panel_count))
         return rows->panel_count == 0;
     for (size_t panel = 0; panel < rows->panel_count; panel++) {
         plot_panel(rows, p.pipe, panel, "frame_ms", "ms a frame, median, 5 to 95 %");
         plot_panel(rows, p.pipe, panel, "energy_estimate_mj", "mJ a frame, estimated from traffic");
     }
-    return finish(&p);
+    return plotter_finish(&p);
 }
 
 /* What times are drawn against, and which. */
@@ -209,7 +163,7 @@ static void put_line(const trade_rows *rows, FILE *f, size_t first, size_t of, i
             break;
         last = scale_of(rows, next, scale);
         fprintf(f, "%g %g \"", last, trade_number(rows, next, scales[scale].time));
-        put_name(f, trade_word(rows, next, "config"));
+        plotter_put_name(f, trade_word(rows, next, "config"));
         fprintf(f, "\"\n");
     }
 }
@@ -234,7 +188,7 @@ static void plot_lines(const trade_rows *rows, FILE *f, size_t first, int scale)
     if (is_by_faces(scale))
         fprintf(f, "lights: %s", trade_word(rows, first, "lights"));
     else
-        put_name(f, slash ? slash + 1 : trade_word(rows, first, "scene"));
+        plotter_put_name(f, slash ? slash + 1 : trade_word(rows, first, "scene"));
     fprintf(f,
             "' noenhanced\nset xlabel '%s'\nset ylabel '%s'\nset logscale xy\nset xrange [*:*]\n"
             "set yrange [*:*]\nset key outside right noenhanced font ',10'\nplot ",
@@ -271,8 +225,8 @@ int plot_scaling(const trade_rows *rows, const char *path)
 
     if (panels == 0)
         return 1;
-    if (!start(&p, path, 2, (panels + 1) / 2))
+    if (!plotter_start(&p, path, 2, (panels + 1) / 2))
         return 0;
     plot_panels(rows, p.pipe);
-    return finish(&p);
+    return plotter_finish(&p);
 }

@@ -59,7 +59,8 @@ typedef struct scene_mesh {
 
 /* A mesh at a node. */
 typedef struct scene_instance {
-    int node, mesh;
+    int node,
+        mesh; /* node SCENE_NONE: of a scene that was not read; it stands where it is, and bounds know nothing of it */
     int casts, receives, is_static; /* from the node's extras */
     double world[16];               /* set by scene_pose() */
 } scene_instance;

@@ -201,7 +201,7 @@ static void find_bounds(scene *s)
     for (int axis = 0; axis < 3; axis++)
         s->bounds_min[axis] = s->bounds_max[axis] = 0.0;
     for (size_t i = 0; i < s->instance_count; i++)
-        for (int corner = 0; corner < 8; corner++) {
+        for (int corner = 0; corner < 8 && s->instances[i].node != SCENE_NONE; corner++) {
             const scene_node *n = &s->nodes[s->instances[i].node];
             const double local[3] = {n->box[corner & 1][0], n->box[corner >> 1 & 1][1], n->box[corner >> 2][2]};
             double world[3];
@@ -222,7 +222,8 @@ void scene_pose(scene *s, double seconds)
     animate(s, seconds);
     place_nodes(s);
     for (size_t i = 0; i < s->instance_count; i++)
-        memcpy(s->instances[i].world, s->nodes[s->instances[i].node].world, sizeof s->instances[i].world);
+        if (s->instances[i].node != SCENE_NONE)
+            memcpy(s->instances[i].world, s->nodes[s->instances[i].node].world, sizeof s->instances[i].world);
     for (size_t i = 0; i < s->light_count; i++)
         if (s->lights[i].node != SCENE_NONE)
             place_light(&s->lights[i], &s->nodes[s->lights[i].node]);
