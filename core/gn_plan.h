@@ -163,7 +163,12 @@ typedef struct gn_scene {
     int sharpen; /* 1: not NEAREST, nor of frames that are dimmed; what is between 0 and 1 then is narrowed to a pixel of the frame (GN_SHARPENED) */
     gn_shade shade;
     double dimmed; /* GN_SHADE_ATTENUATE: what a shadow leaves of the light, more than 0, less than 1 [0.5] */
-    int discards;  /* 1: the host reads neither depth nor stencil of the target after the frame: they may be dropped */
+    /* A frame may be made of several plans, each with lights of its own and another method or scale, drawn one after the other into
+     * the target. follows: an earlier one has drawn depth and ambient light; this one adds its lights. precedes: a later one
+     * follows, to which the last pass is left. Only GN_SHADE_ADDITIVE; what makes masks in the target itself follows nothing
+     * [0, 0: the whole frame] */
+    int follows, precedes;
+    int discards; /* 1: the host reads neither depth nor stencil of the target after the frame: they may be dropped */
     gn_shadow_cache *cache; /* borrowed while the plan lives; one plan at a time [NULL: none] */
     unsigned without;       /* to measure them: a set of gn_measure that the method stencil does without */
 } gn_scene;

@@ -217,6 +217,8 @@ gn_step *gni_add_step(gni_draft *d, gn_step_kind kind, gn_draw draw, uint32_t li
 gn_result gni_add_passes(gni_draft *d);
 /* Depth and ambient light, or all light. */
 void gni_add_surfaces(gni_draft *d);
+/* The clear and they, unless an earlier plan has drawn them. */
+void gni_start_frame(gni_draft *d);
 /* What a light under a stencil or alpha adds, before the next one's mask. */
 void gni_add_own_passes(gni_draft *d, uint32_t light);
 /* Takes back the steps that were to make masks, and their image: no light has a shadow. */
@@ -244,7 +246,8 @@ gn_result gni_check_scene(gn_context *context, const gn_scene *scene);
 /* plan_light.c: records of a light, and the steps that make its mask. Fills d->draws. */
 gn_result gni_add_light(gni_draft *d, uint32_t light);
 
-/* stain.c: a step that zeroes a light's scissor, where the stencil may differ from its reference; and that it may. */
+/* stain.c: where the stencil is not clean at the start; a step that zeroes a light's scissor, where the stencil may differ from its reference; and that it may. */
+void gni_start_stain(gni_draft *d);
 void gni_clean_stencil(gni_draft *d, uint32_t light);
 void gni_stain_stencil(gni_draft *d, uint32_t light);
 

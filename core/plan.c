@@ -346,7 +346,7 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     gni_model_view(d->view, &s->camera, identity, no_centre);
     gni_make_view(&d->seen, &s->camera, &s->target, d->whole);
     find_depth_limit(d);
-    d->stain.reference = d->choice.stencil.reference;
+    gni_start_stain(d);
     result = place_objects(d);
     if (result != GN_OK)
         return result;
@@ -358,6 +358,13 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     for (uint32_t p = 0; p < d->patch_count; p++)
         gni_plane_before(d->plan->patches[p], d->patches[p].plane, d->view);
     return GN_OK;
+}
+
+/* In its colour, or small ones in its corner: what was drawn there is lost. */
+static int makes_masks_in_target(const gn_scene *s, const gni_choice *choice)
+{
+    return choice->color.place == GN_PLACE_COLOR ||
+           (scale_of(s) > 1 && choice->image.format == GN_FORMAT_NONE && !choice->is_refined);
 }
 
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan)
@@ -392,6 +399,11 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     d.context = context;
     d.scene = &own;
     result = gni_choose(context, &own, &d.choice);
+    if (result == GN_OK && own.follows && makes_masks_in_target(&own, &d.choice))
+        result = gn_fail(
+            context, GN_E_DEVICE,
+            "plan: method %s at scale 1/%lu makes masks in the target: it cannot follow another plan of the frame",
+            gn_method_describe(d.choice.method)->name, (unsigned long)scale_of(&own));
     if (result != GN_OK)
         return result;
     lay_out(&d, &a);

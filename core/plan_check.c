@@ -102,6 +102,8 @@ gn_result gni_check_scene(gn_context *context, const gn_scene *s)
             (int)s->shade);
     if (s->sharpen && s->upsample == GN_UPSAMPLE_NEAREST && s->scale > 1)
         return gn_fail(context, GN_E_ARG, "plan: masks upsampled by nearest are 0 or 1: nothing is sharpened");
+    if ((s->follows || s->precedes) && s->shade != GN_SHADE_ADDITIVE)
+        return gn_fail(context, GN_E_ARG, "plan: a frame that is dimmed (shade %d) is one plan", (int)s->shade);
     if (s->lights_per_pass > GN_MOST_MASKED)
         return gn_fail(context, GN_E_ARG, "plan: %lu lights in a pass, at most %d", (unsigned long)s->lights_per_pass,
                        GN_MOST_MASKED);

@@ -69,6 +69,14 @@ void gni_add_surfaces(gni_draft *d)
     gni_add_step(d, GN_STEP_DRAW, d->plan->shade == GN_SHADE_ADDITIVE ? GN_DRAW_AMBIENT : GN_DRAW_LIT, GN_NO_LIGHT, 1);
 }
 
+void gni_start_frame(gni_draft *d)
+{
+    if (d->scene->follows)
+        return;
+    add(d, GN_STEP_CLEAR);
+    gni_add_surfaces(d);
+}
+
 /* Whether the light's pass, or what dims its shadow, is needed of the receivers. */
 static int is_passed(const gni_draft *d, uint32_t light, unsigned draws)
 {
@@ -92,10 +100,10 @@ static void start_masks(gni_draft *d)
 {
     const gn_image *image = &d->plan->image;
 
-    if (image->format == GN_FORMAT_NONE || image->depth_bits == 0)
+    if (image->format == GN_FORMAT_NONE)
         add(d, GN_STEP_CLEAR);
-    if (image->format != GN_FORMAT_NONE && image->depth_bits == 0)
-        gni_add_surfaces(d);
+    else if (image->depth_bits == 0)
+        gni_start_frame(d);
     if (image->format != GN_FORMAT_NONE)
         add(d, GN_STEP_CLEAR_IMAGE);
     if (image->format == GN_FORMAT_NONE || image->depth_bits > 0)
@@ -139,17 +147,20 @@ static void end_masks(gni_draft *d, uint32_t first_step)
     d->plan->mask_count = (d->mask_count + d->choice.lights_per_mask - 1) / d->choice.lights_per_mask;
     if (d->mask_count == 0) { /* none was needed */
         gni_need_no_masks(d, first_step);
-        add(d, GN_STEP_CLEAR);
-        gni_add_surfaces(d);
+        gni_start_frame(d);
         return;
     }
     if (is_screen(d))
         copy_mask(d, d->plan->mask_count - 1);
     if (image->format != GN_FORMAT_NONE && gn_target_can(&d->scene->target, GN_CAN_DISCARD))
         add(d, GN_STEP_DISCARD)->into = GN_INTO_IMAGE;
-    if (!is_drawn) {
-        add(d, is_screen(d) && d->plan->scale == 1 ? GN_STEP_CLEAR_COLOR : GN_STEP_CLEAR);
+    if (is_drawn)
+        return;
+    if (is_screen(d) && d->plan->scale == 1) {
+        add(d, GN_STEP_CLEAR_COLOR);
         gni_add_surfaces(d);
+    } else {
+        gni_start_frame(d);
     }
 }
 
@@ -220,8 +231,7 @@ static gn_result add_lights(gni_draft *d)
     } else if (are_textures) {
         start_masks(d);
     } else {
-        add(d, GN_STEP_CLEAR);
-        gni_add_surfaces(d);
+        gni_start_frame(d);
     }
     for (uint32_t light = 0; light < d->scene->light_count && result == GN_OK; light++) {
         d->draws[light] = 0;
@@ -259,10 +269,11 @@ gn_result gni_add_passes(gni_draft *d)
     else
         gni_note_masks(d);
     redraw_others(d);
-    add_draw(d, GN_DRAW_FINAL);
+    if (!d->scene->precedes)
+        add_draw(d, GN_DRAW_FINAL);
     if (d->plan->mask == GN_MASK_ALPHA)
         add(d, GN_STEP_OPAQUE);
-    if (d->scene->discards && gn_target_can(&d->scene->target, GN_CAN_DISCARD))
+    if (d->scene->discards && !d->scene->precedes && gn_target_can(&d->scene->target, GN_CAN_DISCARD))
         add(d, GN_STEP_DISCARD);
     return GN_OK;
 }

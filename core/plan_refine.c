@@ -27,12 +27,10 @@ static void count_again(gni_draft *d, uint32_t light, uint32_t first, uint32_t e
 
 void gni_refine(gni_draft *d, uint32_t first_step)
 {
-    static const gni_stain clean = {{0, 0, 0, 0}, 0};
     const uint32_t end = d->plan->step_count;
 
     d->is_refining = 1;
-    d->stain = clean;
-    d->stain.reference = d->choice.stencil.reference;
+    gni_start_stain(d);
     if (d->mask_count == 0) {
         gni_need_no_masks(d, first_step);
     } else {
@@ -40,8 +38,7 @@ void gni_refine(gni_draft *d, uint32_t first_step)
         if (gn_target_can(&d->scene->target, GN_CAN_DISCARD))
             gni_add_step(d, GN_STEP_DISCARD, GN_DRAW_NOTHING, GN_NO_LIGHT, 0)->into = GN_INTO_IMAGE;
     }
-    gni_add_step(d, GN_STEP_CLEAR, GN_DRAW_NOTHING, GN_NO_LIGHT, 0);
-    gni_add_surfaces(d);
+    gni_start_frame(d);
     for (uint32_t light = 0; light < d->scene->light_count; light++) {
         if (d->lights[light].skip != GN_SKIP_NOT)
             continue;

@@ -17,6 +17,16 @@ static int is_inside(const uint32_t inner[4], const uint32_t outer[4])
     return inner[0] >= outer[0] && inner[1] >= outer[1] && inner[2] <= outer[2] && inner[3] <= outer[3];
 }
 
+void gni_start_stain(gni_draft *d)
+{
+    memset(&d->stain, 0, sizeof d->stain);
+    d->stain.reference = d->choice.stencil.reference;
+    if (!d->scene->follows || (d->choice.image.format != GN_FORMAT_NONE && !d->is_refining))
+        return; /* it is cleared */
+    d->stain.at[2] = d->scene->target.width;
+    d->stain.at[3] = d->scene->target.height;
+}
+
 void gni_clean_stencil(gni_draft *d, uint32_t light)
 {
     const gn_plan_light *about = &d->lights[light];

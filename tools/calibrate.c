@@ -118,8 +118,7 @@ static int observe(stage *s, const stage_wish *wish, observed *o)
 }
 
 /* A sample by all ways, and without shadows before each of them, so that both meet the same machine. */
-static int observe_sample(stage *s, observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT],
-                          char message[SCENE_MESSAGE])
+static int observe_sample(stage *s, observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT], char message[SCENE_MESSAGE])
 {
     const stage_wish plain = {.method = GN_METHOD_AUTO, .light_count = LIGHTS};
     double us[1 + GN_METHOD_TOTAL * GN_VARIANT_COUNT], bytes = 0.0;
@@ -151,7 +150,8 @@ static int observe_sample(stage *s, observed all[GN_METHOD_TOTAL][GN_VARIANT_COU
     return 1;
 }
 
-static int observe_all(stage *s, scene *of, observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT], char message[SCENE_MESSAGE])
+static int observe_all(stage *s, scene *of, observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT],
+                       char message[SCENE_MESSAGE])
 {
     for (int i = 0; i < SAMPLES; i++) {
         sample_scene_cast(of, samples[i].coarse, samples[i].fine);
@@ -259,9 +259,9 @@ static int write_knowledge(const gn_knowledge *k, const gn_possible *possible, c
                 continue;
             variant_wish(m, v, &wish);
             fprintf(f.file, "%s,%u,%s,%s", gn_method_describe((gn_method)m)->name, (unsigned)wish.scale,
-                    wish.scale == 1                         ? "none"
-                    : wish.upsample == GN_UPSAMPLE_DEPTH    ? "depth"
-                                                            : "bilinear",
+                    wish.scale == 1                      ? "none"
+                    : wish.upsample == GN_UPSAMPLE_DEPTH ? "depth"
+                                                         : "bilinear",
                     gn_accuracy_name(way->accuracy));
             for (int c = 0; c < 2 * GN_COST_COUNT; c++)
                 fprintf(f.file, ",%.6g", c < GN_COST_COUNT ? way->us[c] : way->bytes[c - GN_COST_COUNT]);

@@ -127,9 +127,18 @@ static void set_possible(const job *j, gn_possible *out)
     gn_scene scene;
 
     memset(&scene, 0, sizeof scene);
-    scene.target = (gn_target){.width = 640, .height = 480, .red_bits = 8, .green_bits = 8, .blue_bits = 8, .alpha_bits = 8,
-                               .depth_bits = 24, .stencil_bits = 8, .image_depth_bits = 24, .mediump_bits = 23,
-                               .advertised = all, .proven = all};
+    scene.target = (gn_target){.width = 640,
+                               .height = 480,
+                               .red_bits = 8,
+                               .green_bits = 8,
+                               .blue_bits = 8,
+                               .alpha_bits = 8,
+                               .depth_bits = 24,
+                               .stencil_bits = 8,
+                               .image_depth_bits = 24,
+                               .mediump_bits = 23,
+                               .advertised = all,
+                               .proven = all};
     gn_capability_parse(j->hide, &scene.target.hidden);
     scene.reads_masks = 1;
     gn_find_possible(&scene, out);
@@ -189,8 +198,8 @@ static void find_range(const job *j, const gn_rules *rules, const double *values
         return;
     }
     of->low[axis] = 0.0;
-    of->high[axis] = 4.0 * (fact < GN_FACT_COUNT    ? fmax(*gn_fact(&light.facts, fact), 0.25)
-                            : fact == GN_FACT_COUNT ? light.load.indices
+    of->high[axis] = 4.0 * (fact < GN_FACT_COUNT        ? fmax(*gn_fact(&light.facts, fact), 0.25)
+                            : fact == GN_FACT_COUNT     ? light.load.indices
                             : fact == GN_FACT_COUNT + 1 ? light.load.fragments
                                                         : light.load.pixels);
 }
@@ -208,8 +217,8 @@ static int find_name(surface *of, const gn_way *way)
     return i;
 }
 
-static int find_point(const job *j, gn_context *context, gn_selection *s, const double *values, uint32_t output, surface *of,
-                      double *z)
+static int find_point(const job *j, gn_context *context, gn_selection *s, const double *values, uint32_t output,
+                      surface *of, double *z)
 {
     gn_light_state light;
     gn_choice choice;
@@ -257,8 +266,10 @@ static int plot(const job *j, const surface *of)
                     of->low[1] + (of->high[1] - of->low[1]) * y / (SIDE - 1), of->z[y][x]);
     fprintf(p.pipe, "EOD\n");
     if (j->output) {
-        fprintf(p.pipe, "set palette defined (0 '#2b3a67', 50 '#e8e1d4', 100 '#b5482a')\nset cbrange [0:100]\nset cblabel 'suits'\n"
-                        "plot $points using 1:2:3 with image\n");
+        fprintf(
+            p.pipe,
+            "set palette defined (0 '#2b3a67', 50 '#e8e1d4', 100 '#b5482a')\nset cbrange [0:100]\nset cblabel 'suits'\n"
+            "plot $points using 1:2:3 with image\n");
     } else {
         fprintf(p.pipe, "set key outside right\nset tics out\nplot ");
         for (int i = 0; i < of->name_count; i++)

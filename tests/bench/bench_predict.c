@@ -60,9 +60,12 @@ static int run_way(stage *s, const gn_knowledge *k, const char *name, int m, int
     const stage_wish wish = {.method = (gn_method)m,
                              .casting = 1,
                              .light_count = s->light_count,
-                             .scale = v == GN_VARIANT_FULL ? 1 : v <= GN_VARIANT_HALF_DEPTH ? 2 : 4,
-                             .upsample = v == GN_VARIANT_HALF_DEPTH || v == GN_VARIANT_QUARTER_DEPTH ? GN_UPSAMPLE_DEPTH
-                                                                                                     : GN_UPSAMPLE_BILINEAR};
+                             .scale = v == GN_VARIANT_FULL         ? 1
+                                      : v <= GN_VARIANT_HALF_DEPTH ? 2
+                                                                   : 4,
+                             .upsample = v == GN_VARIANT_HALF_DEPTH || v == GN_VARIANT_QUARTER_DEPTH
+                                             ? GN_UPSAMPLE_DEPTH
+                                             : GN_UPSAMPLE_BILINEAR};
     double shadow[REPEATS], measured, own, foreseen;
     gn_load *loads;
 
@@ -85,8 +88,10 @@ static int run_way(stage *s, const gn_knowledge *k, const char *name, int m, int
         loads[0].fragments += loads[i].fragments;
         loads[0].pixels += loads[i].pixels;
     }
-    printf("%s,%s,%u,%s,%u,%.0f,%.0f,%.0f,%.3f,%.3f,%.3f\n", name, gn_method_describe((gn_method)m)->name, (unsigned)wish.scale,
-           wish.upsample == GN_UPSAMPLE_DEPTH ? "depth" : "bilinear", (unsigned)s->plan->light_count, loads[0].indices, loads[0].fragments, loads[0].pixels, measured, own, foreseen);
+    printf("%s,%s,%u,%s,%u,%.0f,%.0f,%.0f,%.3f,%.3f,%.3f\n", name, gn_method_describe((gn_method)m)->name,
+           (unsigned)wish.scale, wish.upsample == GN_UPSAMPLE_DEPTH ? "depth" : "bilinear",
+           (unsigned)s->plan->light_count, loads[0].indices, loads[0].fragments, loads[0].pixels, measured, own,
+           foreseen);
     free(loads);
     if (measured >= LEAST_MS && error_count < MOST_ROWS) {
         errors[0][error_count] = fabs(own / measured - 1.0);

@@ -121,7 +121,9 @@ static void make_knowledge(gn_knowledge *k)
     for (int m = 0; m < GN_METHOD_TOTAL; m++)
         for (int v = 0; v < GN_VARIANT_COUNT; v++) {
             const double scale = v == GN_VARIANT_FULL ? 1.0 : v <= GN_VARIANT_HALF_DEPTH ? 2.0 : 4.0;
-            const double reads = v == GN_VARIANT_FULL ? 0.0 : v % 2 ? 1.0 : 3.0; /* of the mask, by the frame's pixels */
+            const double reads = v == GN_VARIANT_FULL ? 0.0
+                                 : v % 2              ? 1.0
+                                                      : 3.0; /* of the mask, by the frame's pixels */
             const double us[GN_COST_COUNT] = {200, 0.02, 0.01 * times[m], 0.02 + 0.01 * reads * scale * scale, 100};
 
             memcpy(k->ways[m][v].us, us, sizeof us);

@@ -282,8 +282,9 @@ static unsigned flags_of(const stage *s, const scene_instance *instance, const g
 {
     const scene_mesh *m = &s->scene->meshes[instance->mesh];
     const gn_mesh_info *info = gn_mesh_get_info(object->mesh);
-    const int hides_backs = wish->light_count >= MANY_LIGHTS && info->outward_part_count == info->part_count &&
-                            !eye_may_be_inside(camera, object);
+    const uint32_t lights = wish->members ? s->light_count : wish->light_count; /* alike in all parts of a frame */
+    const int hides_backs =
+        lights >= MANY_LIGHTS && info->outward_part_count == info->part_count && !eye_may_be_inside(camera, object);
     unsigned flags = GN_DRAWN | GN_DRAWN_BACKS | (instance->casts && wish->casting ? GN_CASTS : 0u) |
                      (instance->receives ? GN_RECEIVES : 0u);
 
@@ -319,7 +320,7 @@ static void place_object(stage *s, size_t index, const gn_camera *camera, const 
         memcpy(s->objects[i].model, instance->world, sizeof s->objects[i].model);
     }
     drawn->flags = flags_of(s, instance, camera, drawn, wish);
-    if (drawn == first)
+    if (drawn == first || wish->full_casters)
         return;
     first->mesh = m->proxy;
     first->error = m->proxy_error;
@@ -355,7 +356,15 @@ int stage_plan(stage *s, const stage_wish *wish, char message[SCENE_MESSAGE])
         if (wish->unbounded)
             unbind(&s->planned[i]);
     }
-    frame.lights = s->planned + wish->first_light;
+    s->member_count = wish->members ? wish->light_count : 0;
+    for (uint32_t i = 0; i < s->member_count;
+         i++) { /* to the front, in order: a member's number is no less than its place */
+        s->members[i] = wish->members[i];
+        s->planned[i] = s->planned[s->members[i]];
+    }
+    frame.lights = s->planned + (wish->members ? 0 : wish->first_light);
+    frame.follows = wish->follows;
+    frame.precedes = wish->precedes;
     frame.light_count = wish->light_count;
     frame.objects = s->objects;
     frame.object_count = (uint32_t)(s->scene->instance_count * (s->proxy_triangles ? 2 : 1));

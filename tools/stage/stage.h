@@ -87,6 +87,8 @@ typedef struct stage {
     void *plan_memory;
     size_t plan_size;
     const gn_plan *plan;
+    uint32_t *members; /* [member_count] the plan's lights, by their numbers in the stage; 0: as they stand there */
+    uint32_t member_count;
 } stage;
 
 typedef struct stage_options {
@@ -133,6 +135,10 @@ typedef struct stage_wish {
     uint32_t scale; /* of masks; 0: 1 */
     gn_upsample upsample;
     int sharpen;
+    /* A part of a frame: of so many lights, by their numbers in the stage; NULL: those from first_light on. */
+    const uint32_t *members;
+    int follows, precedes;
+    int full_casters;         /* proxies do not cast, if there are any */
     uint32_t lights_per_pass; /* under a mask in a texture; 0: as many as the shader can */
 } stage_wish;
 

@@ -18,7 +18,8 @@ static void set_lights(stage *s, const stage_program *p, const stage_look *look)
     float position[STAGE_LIGHTS][4], color[STAGE_LIGHTS][3], axis[STAGE_LIGHTS][4], cone[STAGE_LIGHTS][2];
 
     for (uint32_t i = 0; i < count; i++) {
-        const stage_light *l = &s->shading[look->first_light + (look->picked ? look->picked[i] : i)];
+        const uint32_t number = look->first_light + (look->picked ? look->picked[i] : i);
+        const stage_light *l = &s->shading[look->picked && s->member_count ? s->members[number] : number];
 
         memcpy(position[i], l->shader_position, sizeof position[i]);
         memcpy(color[i], l->color, sizeof color[i]);

@@ -140,7 +140,8 @@ int stage_upload(stage *s, char message[SCENE_MESSAGE])
     s->lights = calloc((size_t)s->light_count + 1, sizeof *s->lights);
     s->planned = calloc((size_t)s->light_count + 1, sizeof *s->planned);
     s->shading = calloc((size_t)s->light_count + 1, sizeof *s->shading);
-    if (!s->meshes || !s->textures || !s->objects || !s->lights || !s->planned || !s->shading)
+    s->members = calloc((size_t)s->light_count + 1, sizeof *s->members);
+    if (!s->members || !s->meshes || !s->textures || !s->objects || !s->lights || !s->planned || !s->shading)
         return fail(message, "no memory for the scene's objects");
     for (size_t i = 0; i < from->mesh_count; i++) {
         if (!upload_mesh(s, &from->meshes[i], &s->meshes[i], message))
@@ -196,6 +197,7 @@ void stage_release(stage *s)
     free(s->lights);
     free(s->planned);
     free(s->shading);
+    free(s->members);
     free(s->scratch);
     free(s->facing);
     free(s->plan_memory);

@@ -91,7 +91,7 @@ int stage_draw_lit(stage *s, uint32_t first_light, char message[SCENE_MESSAGE])
             stage_draw_objects(s, STAGE_PASS_SOLID, &light);
             break;
         default:
-            draw_blended(s, first_light, s->plan->light_count);
+            draw_blended(s, first_light, s->member_count ? s->light_count : s->plan->light_count);
         }
     }
     return 1;
