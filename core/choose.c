@@ -128,6 +128,13 @@ gn_method gni_pick(const gn_scene *s)
     return s->method == GN_METHOD_AUTO ? pick(s, &nothing, &nothing) : s->method;
 }
 
+/* In its colour, or small ones in its corner: what was drawn there is lost. */
+static int makes_masks_in_target(const gn_scene *s, const gni_choice *choice)
+{
+    return choice->color.place == GN_PLACE_COLOR ||
+           (s->scale > 1 && choice->image.format == GN_FORMAT_NONE && !choice->is_refined);
+}
+
 gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
 {
     const gn_target *t = &s->target;
@@ -158,5 +165,10 @@ gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
         gni_patch_layout(&choice->stencil, 1); /* of what is not contested */
     gni_choose_masks(s, choice);
     choose_far(s, choice);
+    if (s->follows && makes_masks_in_target(s, choice))
+        return gn_fail(
+            context, GN_E_DEVICE,
+            "plan: method %s at scale 1/%lu makes masks in the target: it cannot follow another plan of the frame",
+            gn_method_describe(choice->method)->name, (unsigned long)(s->scale ? s->scale : 1));
     return GN_OK;
 }

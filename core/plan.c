@@ -360,13 +360,6 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     return GN_OK;
 }
 
-/* In its colour, or small ones in its corner: what was drawn there is lost. */
-static int makes_masks_in_target(const gn_scene *s, const gni_choice *choice)
-{
-    return choice->color.place == GN_PLACE_COLOR ||
-           (scale_of(s) > 1 && choice->image.format == GN_FORMAT_NONE && !choice->is_refined);
-}
-
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan)
 {
     gni_draft d;
@@ -399,11 +392,6 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     d.context = context;
     d.scene = &own;
     result = gni_choose(context, &own, &d.choice);
-    if (result == GN_OK && own.follows && makes_masks_in_target(&own, &d.choice))
-        result = gn_fail(
-            context, GN_E_DEVICE,
-            "plan: method %s at scale 1/%lu makes masks in the target: it cannot follow another plan of the frame",
-            gn_method_describe(d.choice.method)->name, (unsigned long)scale_of(&own));
     if (result != GN_OK)
         return result;
     lay_out(&d, &a);

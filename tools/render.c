@@ -12,6 +12,7 @@
 
 #include "options.h"
 #include "picture.h"
+#include "render_adaptive.h"
 #include "report.h"
 #include "stage.h"
 
@@ -42,6 +43,13 @@ const char help_render[] =
     "  --update-every N      finds a shadow anew in every N-th frame only [1]\n"
     "  --update-distance D   or when its light has moved by D as its caster sees it, in scene units [0]\n"
     "  --masks-every N       makes masks in textures anew in every N-th frame only [1]\n"
+    "  --budget-ms MS        chooses for each light how its shadows are made, so that frames take no longer\n"
+    "  --budget-mw MW        and their estimated power is no more, at 60 frames a second; --budget-mb MB: and memory\n"
+    "  --quality CLASS       but no less than that: none, rough, fair, fine or exact [none: shadows may go]\n"
+    "  --knowledge FILE.csv  what ways cost here, by `gnomon calibrate`; --rules FILE.fcl: what suits; --power P: a\n"
+    "                        fact for them, 0 hot or low to 1 mains [1]\n"
+    "  --load FILE           lines of a frame and lights N, host MS, budget MS or power P, that hold from there on\n"
+    "  --trace FILE.csv      what each frame took and how its lights' shadows were made\n"
     "  --frames N            renders N frames at 1/60 s, writes the last [1]\n"
     "  --spin DEG            turns every light DEG degrees a frame about the vertical axis [0]\n"
     "  --exposure E          [the brightest light gives 1 at the scene's centre]\n"
@@ -63,6 +71,7 @@ typedef struct job {
     double spin, exposure, importance, soft_radius, update_distance;
     int explain, one_sided, blend_once, sharpen;
     gn_method method;
+    adaptive_job adaptive;
 } job;
 
 static int write_frame(stage *s, const char *path)
@@ -207,6 +216,29 @@ static int measured_frame(stage *s, const job *j, size_t frame, measured *m, cha
     return status;
 }
 
+static int is_adaptive(const job *j)
+{
+    const selecting *g = &j->adaptive.given;
+
+    return g->budget_ms > 0.0 || g->budget_mw > 0.0 || g->budget_mb > 0.0 || j->adaptive.script || j->adaptive.csv;
+}
+
+/* Within a budget: the frames, and the last one's picture. */
+static int run_adaptively(stage *s, const job *j)
+{
+    const stage_wish like = {.casting = 1, .least_light = j->importance, .sharpen = j->sharpen};
+    adaptive_job adaptive = j->adaptive;
+    int status;
+
+    adaptive.frames = j->frames;
+    adaptive.spin = j->spin;
+    adaptive.explain = j->explain;
+    status = render_adaptively(s, &adaptive, &like);
+    if (status == EXIT_DONE && j->frame && !write_frame(s, j->frame))
+        status = EXIT_FAILED;
+    return status;
+}
+
 static int leaves_something(const job *j)
 {
     return j->update_every > 1 || j->update_distance > 0.0 || j->masks_every > 1;
@@ -341,10 +373,12 @@ static int run(const job *j, const char *path)
         return EXIT_FAILED;
     }
     status = stage_open(&s, &loaded, &options, message);
-    if (status == EXIT_DONE)
+    if (status == EXIT_DONE && !is_adaptive(j))
         status = draw_frames(s, j, &m, message);
     if (status != EXIT_DONE)
         say("%s: %s", path, message);
+    else if (is_adaptive(j))
+        status = run_adaptively(s, j);
     else
         status = write_outputs(s, j, &m, message);
     free(m.ms.frame);
@@ -425,6 +459,31 @@ static int parse_shade(job *j)
     return 0;
 }
 
+/* Within a budget the selector chooses: what it chooses cannot be given too, nor what is of one plan be written. */
+static int check_adaptive(const job *j)
+{
+    const struct {
+        const char *name;
+        int is_given;
+    } others[] = {{"--method", j->method != GN_METHOD_AUTO},
+                  {"--scale", j->scale > 1},
+                  {"--mask-dir", j->mask_dir != NULL},
+                  {"--plan", j->plan != NULL},
+                  {"--report", j->report != NULL},
+                  {"--show", j->show != NULL},
+                  {"--shade", j->shade != GN_SHADE_ADDITIVE},
+                  {"--blend-once", j->blend_once},
+                  {"--masks-every", j->masks_every > 1},
+                  {"--update-every", j->update_every > 1}};
+
+    for (size_t i = 0; is_adaptive(j) && i < sizeof others / sizeof others[0]; i++)
+        if (others[i].is_given) {
+            say("render: a budget leaves the choice to the selector: leave out %s", others[i].name);
+            return 0;
+        }
+    return 1;
+}
+
 static int one_of(const char *word, const char *const *words)
 {
     for (; *words; words++)
@@ -445,8 +504,18 @@ int command_render(int count, char **arguments)
              .frames = 1,
              .soft_count = 1,
              .update_every = 1,
-             .masks_every = 1};
+             .masks_every = 1,
+             .adaptive = {.power = 1.0}};
     const option options[] = {
+        {"--budget-ms", OPTION_NUMBER, &j.adaptive.given.budget_ms, 0, 1e6},
+        {"--budget-mw", OPTION_NUMBER, &j.adaptive.given.budget_mw, 0, 1e6},
+        {"--budget-mb", OPTION_NUMBER, &j.adaptive.given.budget_mb, 0, 1e6},
+        {"--quality", OPTION_TEXT, &j.adaptive.given.quality, 0, 0},
+        {"--knowledge", OPTION_TEXT, &j.adaptive.given.knowledge, 0, 0},
+        {"--rules", OPTION_TEXT, &j.adaptive.given.rules, 0, 0},
+        {"--power", OPTION_NUMBER, &j.adaptive.power, 0, 1},
+        {"--load", OPTION_TEXT, &j.adaptive.script, 0, 0},
+        {"--trace", OPTION_TEXT, &j.adaptive.csv, 0, 0},
         {"-o", OPTION_TEXT, &j.frame, 0, 0},
         {"--size", OPTION_SIZE, j.size, 1, 16384},
         {"--mask-dir", OPTION_TEXT, &j.mask_dir, 0, 0},
@@ -482,7 +551,7 @@ int command_render(int count, char **arguments)
         say("render: takes one scene (%d given)", kept);
         return EXIT_USAGE;
     }
-    if (!j.frame && !j.mask_dir && !j.plan && !j.report && !j.explain) {
+    if (!j.frame && !j.mask_dir && !j.plan && !j.report && !j.explain && !j.adaptive.csv) {
         say("render: nothing to do: give -o, --mask-dir, --plan, --report or --explain (none given)");
         return EXIT_USAGE;
     }
@@ -493,7 +562,7 @@ int command_render(int count, char **arguments)
     }
     if (!check_hidden("--hide", j.hide) || !check_hidden("GNOMON_HIDE", getenv("GNOMON_HIDE")))
         return EXIT_USAGE;
-    if (!parse_bits(&j) || !parse_shade(&j) || !parse_upsample(&j))
+    if (!parse_bits(&j) || !parse_shade(&j) || !parse_upsample(&j) || !check_adaptive(&j))
         return EXIT_USAGE;
     if (j.soft && !parse_soft(&j))
         return EXIT_USAGE;

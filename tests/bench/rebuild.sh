@@ -5,7 +5,7 @@
 # Each figure is the difference of two runs, so that start and set-up do not count.
 build=$1/bench cc=$2
 sources="core/*.c port/port_libc.c tests/support/pile.c tests/bench/bench_rebuild.c"
-flags="-std=c99 -O2 -ffp-contract=off -Iport -Icore -Itests/support"
+flags="-std=c99 -O2 -ffp-contract=off -Iport -Icore -I$1/rules -Itests/support"
 mkdir -p "$build"
 # shellcheck disable=SC2086 # lists
 for way in scalar: vectors: avx2:; do

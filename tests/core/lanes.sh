@@ -3,7 +3,7 @@
 # AVX2's where the processor has them, and in NEON's where a cross compiler and qemu are installed.
 build=$1/lanes cc=$2
 mkdir -p "$build"
-flags="-std=c99 -O2 -ffp-contract=off -Iport -Icore -Itests/support"
+flags="-std=c99 -O2 -ffp-contract=off -Iport -Icore -I$1/rules -Itests/support"
 sources="core/*.c port/port_libc.c tests/support/pile.c tests/bench/bench_rebuild.c"
 expected=
 # shellcheck disable=SC2086 # lists

@@ -42,7 +42,8 @@ static void draw_parts(const gn_method methods[2], uint32_t scale)
 /* Exact methods have the same masks; light is added in another order, by which a level may round otherwise. */
 static void two_plans_are_one_frame(void **state)
 {
-    static const gn_method methods[] = {GN_METHOD_STENCIL, GN_METHOD_ZFAIL, GN_METHOD_COUNT, GN_METHOD_SIGNED, GN_METHOD_ALPHA};
+    static const gn_method methods[] = {GN_METHOD_STENCIL, GN_METHOD_ZFAIL, GN_METHOD_COUNT, GN_METHOD_SIGNED,
+                                        GN_METHOD_ALPHA};
     enum { METHODS = sizeof methods / sizeof methods[0] };
     const stage_wish all = {.method = GN_METHOD_STENCIL, .casting = 1, .light_count = 4};
 
@@ -58,16 +59,17 @@ static void two_plans_are_one_frame(void **state)
             for (int i = 0; i < BYTES; i++)
                 wrong += abs(parts[i] - whole[i]) > 3;
             if (wrong > 3 * 20) /* the halves of pixels on borders */
-                fail_msg("%s and %s: %d levels differ", gn_method_describe(pair[0])->name, gn_method_describe(pair[1])->name,
-                         wrong);
+                fail_msg("%s and %s: %d levels differ", gn_method_describe(pair[0])->name,
+                         gn_method_describe(pair[1])->name, wrong);
         }
 }
 
 /* Small masks in images after a frame that was drawn by a stencil, and the other way round. */
 static void small_masks_follow_and_precede(void **state)
 {
-    static const gn_method pairs[][2] = {
-        {GN_METHOD_STENCIL, GN_METHOD_REFINE}, {GN_METHOD_REFINE, GN_METHOD_REFINE}, {GN_METHOD_COUNT, GN_METHOD_REFINE}};
+    static const gn_method pairs[][2] = {{GN_METHOD_STENCIL, GN_METHOD_REFINE},
+                                         {GN_METHOD_REFINE, GN_METHOD_REFINE},
+                                         {GN_METHOD_COUNT, GN_METHOD_REFINE}};
     const stage_wish all = {.method = GN_METHOD_STENCIL, .casting = 1, .light_count = 4};
 
     (void)state;
@@ -92,7 +94,9 @@ static void what_draws_into_the_target_follows_nothing(void **state)
 
     (void)state;
     assert_int_equal(stage_plan(t.stage, &wish, message), 3);
-    assert_string_equal(message, "plan: method screen at scale 1/1 makes masks in the target: it cannot follow another plan of the frame");
+    assert_string_equal(
+        message,
+        "plan: method screen at scale 1/1 makes masks in the target: it cannot follow another plan of the frame");
     wish.method = GN_METHOD_STENCIL;
     wish.shade = GN_SHADE_BLACK;
     assert_int_equal(stage_plan(t.stage, &wish, message), 1);
