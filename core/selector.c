@@ -4,7 +4,7 @@
  * over it, by all that is wanted at once; but more is spent only when 60 frames were calm, where a tenth of the budget
  * would still be free under the greatest loads of late, and twice as long after each time that it failed. Whatever was wanted, one
  * knob of one light moves at a time. What is kept free of the budget besides is by how much frames differ from their
- * predictions: 2.5 deviations of that. */
+ * predictions: 2.1 deviations of that. */
 #include "gni_select.h"
 
 #include <math.h>
@@ -17,9 +17,9 @@
 #define HELD        10   /* times the wait, after which spending more has not failed */
 #define PANIC       2    /* frames over budget in a row */
 #define FREE        0.9  /* of what is left, that spending more may use */
-#define DEVIATIONS  2.5
-#define FADES       0.3 /* share of a peak of load that is forgotten in the frames that spending waits for */
-#define CHEAPER     0.8 /* times the cost: as accurate, and worth a change */
+#define DEVIATIONS  2.1  /* two frames in a hundred are farther off */
+#define FADES       0.3  /* share of a peak of load that is forgotten in the frames that spending waits for */
+#define CHEAPER     0.8  /* times the cost: as accurate, and worth a change */
 
 struct gn_selector {
     gn_context *context;

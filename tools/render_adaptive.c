@@ -64,13 +64,14 @@ static int read_script(const char *path, script *s)
         number++;
         if (line[strspn(line, " \t\r\n")] == '\0' || line[0] == '#')
             continue;
-        ok = s->count < MOST_CHANGES && sscanf(line, "%ld %15s %lf", &c->frame, c->what, &c->value) == 3 && is_change(c);
+        ok =
+            s->count < MOST_CHANGES && sscanf(line, "%ld %15s %lf", &c->frame, c->what, &c->value) == 3 && is_change(c);
         s->count++;
     }
     fclose(f);
     if (!ok)
-        say("--load: %s: line %d is no frame with lights, host, budget or power and a number (or one of more than %d)", path,
-            number, MOST_CHANGES);
+        say("--load: %s: line %d is no frame with lights, host, budget or power and a number (or one of more than %d)",
+            path, number, MOST_CHANGES);
     return ok;
 }
 
@@ -108,7 +109,7 @@ static int draw_frame(adaptive *a, const stage_wish *like, const loads *now, dou
 
 static void put_header(FILE *f, uint32_t lights)
 {
-    fprintf(f, "frame,ms,predicted_ms,budget_ms,lights,host_ms,plans,changes,accuracy");
+    fprintf(f, "frame,ms,predicted_ms,budget_ms,lights,host_ms,fragments,plans,changes,accuracy");
     for (uint32_t i = 0; i < lights; i++)
         fprintf(f, ",light%u", (unsigned)i);
     fprintf(f, "\n");
@@ -121,9 +122,9 @@ static gn_accuracy least_accuracy(const adaptive *a, const gn_knowledge *k)
 
     for (uint32_t i = 0; i < a->light_count; i++) {
         const gn_way *w = &a->ways[i];
-        const int variant = w->scale == 1 ? GN_VARIANT_FULL
-                                          : (w->scale == 2 ? GN_VARIANT_HALF : GN_VARIANT_QUARTER) +
-                                                (w->upsample == GN_UPSAMPLE_DEPTH);
+        const int variant =
+            w->scale == 1 ? GN_VARIANT_FULL
+                          : (w->scale == 2 ? GN_VARIANT_HALF : GN_VARIANT_QUARTER) + (w->upsample == GN_UPSAMPLE_DEPTH);
         const gn_accuracy of = w->is_dropped ? GN_ACCURACY_NONE : k->ways[w->method][variant].accuracy;
 
         least = of < least ? of : least;
@@ -134,12 +135,16 @@ static gn_accuracy least_accuracy(const adaptive *a, const gn_knowledge *k)
 static void put_row(FILE *f, long frame, double ms, const adaptive *a, const loads *now, const gn_knowledge *k,
                     const gn_way *before)
 {
+    double fragments = 0.0;
     int changes = 0;
 
     for (uint32_t i = 0; i < a->light_count; i++)
+        fragments += a->lights[i].load.fragments;
+    for (uint32_t i = 0; i < a->light_count; i++)
         changes += frame > 0 && memcmp(&before[i], &a->ways[i], sizeof before[i]) != 0;
-    fprintf(f, "%ld,%.3f,%.3f,%g,%u,%g,%u,%d,%s", frame, ms, gn_selector_predicted(a->selector), a->asked.budget.frame_ms,
-            (unsigned)now->lights, now->host_ms, (unsigned)a->plans, changes, gn_accuracy_name(least_accuracy(a, k)));
+    fprintf(f, "%ld,%.3f,%.3f,%g,%u,%g,%.0f,%u,%d,%s", frame, ms, gn_selector_predicted(a->selector),
+            a->asked.budget.frame_ms, (unsigned)now->lights, now->host_ms, fragments, (unsigned)a->plans, changes,
+            gn_accuracy_name(least_accuracy(a, k)));
     for (uint32_t i = 0; i < a->stage->light_count; i++) {
         char name[80] = "";
 
@@ -166,8 +171,8 @@ static void explain(const adaptive *a)
     }
 }
 
-static int draw_frames(adaptive *a, const adaptive_job *j, const stage_wish *like, const script *s, const gn_knowledge *k,
-                       FILE *csv, char message[SCENE_MESSAGE])
+static int draw_frames(adaptive *a, const adaptive_job *j, const stage_wish *like, const script *s,
+                       const gn_knowledge *k, FILE *csv, char message[SCENE_MESSAGE])
 {
     loads now = {a->stage->light_count, 0.0};
 

@@ -160,7 +160,6 @@ int plant_simulate(gn_context *context, plant_load load, plant_control control, 
 
         frame->load = load_at(load, f);
         set_lights(lights, frame->load);
-        memcpy(last, ways, sizeof last);
         if (selector && gn_selector_next(selector, lights, PLANT_LIGHTS, ways) != GN_OK) {
             gn_selector_destroy(selector);
             return 0;
@@ -170,6 +169,7 @@ int plant_simulate(gn_context *context, plant_load load, plant_control control, 
         frame->changes = 0;
         for (int i = 0; i < PLANT_LIGHTS; i++)
             frame->changes += f > 0 && memcmp(&last[i], &ways[i], sizeof last[i]) != 0;
+        memcpy(last, ways, sizeof last);
         if (selector)
             gn_selector_measured(selector, frame->ms);
         if (control == PLANT_PID)
