@@ -56,11 +56,12 @@ void gni_suit_light(const gn_selection *s, uint32_t light, double used_ms, gni_s
 /* Whether the rules ask for facts that there are, and are not more than there is room for. */
 gn_result gni_check_rules(gn_context *context, const gn_rules *rules);
 
-/* learn.c: the host's time of a frame and each method's gain, by what frames took. */
-enum { GNI_LEARNED = 1 + GN_METHOD_TOTAL };
+/* learn.c: the host's time of a frame, the gain of all methods, and by how much each one's is another; by what frames took. */
+enum { GNI_LEARNED = 2 + GN_METHOD_TOTAL };
 typedef struct gni_learner {
     int is_started;
-    double host_ms, gains[GN_METHOD_TOTAL];
+    double host_ms, common, own[GN_METHOD_TOTAL];
+    double gains[GN_METHOD_TOTAL]; /* common + own, within bounds */
     double variance[GNI_LEARNED][GNI_LEARNED];
     double deviation; /* of frames from their predictions, as a share */
     int far;          /* residuals in a row that are far beyond that: above 0, or below */

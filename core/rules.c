@@ -94,9 +94,7 @@ static void read_variables(reader *p, gni_variable *variables, uint32_t *count)
         v->low = INFINITY;
         v->high = -INFINITY;
         v->otherwise = NAN;
-        gni_scan_expect(&p->scan, ":");
-        gni_scan_expect(&p->scan, "REAL");
-        gni_scan_expect(&p->scan, ";");
+        gni_scan_expect(&p->scan, ": REAL ;");
         *count += is_ok(p) ? 1 : 0;
     }
 }
@@ -105,13 +103,11 @@ static void read_range(reader *p, gni_variable *v)
 {
     const char *at = p->scan.token.at;
 
-    gni_scan_expect(&p->scan, ":=");
-    gni_scan_expect(&p->scan, "(");
+    gni_scan_expect(&p->scan, ":= (");
     v->low = gni_scan_number(&p->scan);
     gni_scan_expect(&p->scan, "..");
     v->high = gni_scan_number(&p->scan);
-    gni_scan_expect(&p->scan, ")");
-    gni_scan_expect(&p->scan, ";");
+    gni_scan_expect(&p->scan, ") ;");
     if (!(v->low < v->high))
         gni_scan_fail(&p->scan, at, "the range of %s is empty (%g .. %g)", v->name, v->low, v->high);
 }
@@ -187,14 +183,6 @@ static void read_default(reader *p, gni_variable *v)
     gni_scan_expect(&p->scan, ";");
 }
 
-/* "AND : MIN;" and such: there is one way. */
-static void read_way(reader *p, const char *way)
-{
-    gni_scan_expect(&p->scan, ":");
-    gni_scan_expect(&p->scan, way);
-    gni_scan_expect(&p->scan, ";");
-}
-
 /* A range that is not given is from the first point to the last. An output's terms are of the kind of its METHOD. */
 static void check_terms(reader *p, gni_variable *v, const char *at, int is_output)
 {
@@ -238,7 +226,7 @@ static void read_block_of_variable(reader *p, int is_output)
         else if (is_output && gni_scan_take(&p->scan, "DEFAULT"))
             read_default(p, v);
         else if (is_output && gni_scan_take(&p->scan, "ACCU"))
-            read_way(p, "MAX");
+            gni_scan_expect(&p->scan, ": MAX ;");
         else
             gni_scan_expect(&p->scan, end);
     }
@@ -370,9 +358,9 @@ static void read_block_of_rules(reader *p)
         if (gni_scan_take(&p->scan, "RULE"))
             read_rule(p);
         else if (gni_scan_take(&p->scan, "AND") || gni_scan_take(&p->scan, "ACT"))
-            read_way(p, "MIN");
+            gni_scan_expect(&p->scan, ": MIN ;");
         else if (gni_scan_take(&p->scan, "OR") || gni_scan_take(&p->scan, "ACCU"))
-            read_way(p, "MAX");
+            gni_scan_expect(&p->scan, ": MAX ;");
         else
             gni_scan_expect(&p->scan, "END_RULEBLOCK");
     }

@@ -141,15 +141,30 @@ int gni_scan_take(gni_scan *s, const char *expected)
     return 1;
 }
 
-void gni_scan_expect(gni_scan *s, const char *expected)
+/* One of the expected; 0 having failed. */
+static int expect(gni_scan *s, const char *expected)
 {
     if (gni_scan_take(s, expected))
-        return;
+        return 1;
     if (s->token.length)
         gni_scan_fail(s, s->token.at, "%s is missing before '%.*s'", expected,
                       (int)(s->token.length < 40 ? s->token.length : 40), s->token.at);
     else
         gni_scan_fail(s, s->token.at, "%s is missing at the end", expected);
+    return 0;
+}
+
+void gni_scan_expect(gni_scan *s, const char *expected)
+{
+    char one[24];
+
+    do {
+        const size_t length = strcspn(expected, " ");
+
+        memcpy(one, expected, length);
+        one[length] = '\0';
+        expected += length + (expected[length] == ' ');
+    } while (expect(s, one) && *expected);
 }
 
 double gni_scan_number(gni_scan *s)

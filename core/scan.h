@@ -26,6 +26,7 @@ void gni_scan_next(gni_scan *s);
 /* Whether the token is this word, in any case, or this sign; "" is the text's end. */
 int gni_scan_is(const gni_scan *s, const char *expected);
 int gni_scan_take(gni_scan *s, const char *expected); /* and then goes on */
+/* All of these in a row, with spaces between; each of less than 24 characters. */
 void gni_scan_expect(gni_scan *s, const char *expected);
 double gni_scan_number(gni_scan *s); /* with a sign in front of it */
 /* "rules: line 3, column 7: no input has that name (x)": the first stays. */

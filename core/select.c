@@ -12,6 +12,7 @@
 
 #define MILLIJOULES_A_BYTE 1e-7 /* 100 mW for a gigabyte a second (Arm; Roettger 2002 has the same cause) */
 #define EQUAL              1.1  /* times the cheapest: as cheap */
+#define LEAST              1e-6 /* ms: what is left of a budget that the host alone uses, so that cheap is still told from dear */
 
 enum { CLASSES = GN_ACCURACY_COUNT };
 
@@ -20,7 +21,7 @@ static void allowance(const gn_selection *s, double *ms, double *mj)
 {
     const double interval = s->budget.interval_ms > 0.0 ? s->budget.interval_ms : 1000.0 / 60.0;
 
-    *ms = s->budget.frame_ms > 0.0 ? fmax(s->budget.frame_ms - s->host_ms, 0.0) : INFINITY;
+    *ms = s->budget.frame_ms > 0.0 ? fmax(s->budget.frame_ms - s->host_ms, LEAST) : INFINITY;
     *mj = s->budget.energy_mw > 0.0 ? s->budget.energy_mw * interval / 1000.0 : INFINITY;
 }
 

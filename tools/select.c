@@ -271,7 +271,7 @@ static int plot(const job *j, const surface *of)
             "set palette defined (0 '#2b3a67', 50 '#e8e1d4', 100 '#b5482a')\nset cbrange [0:100]\nset cblabel 'suits'\n"
             "plot $points using 1:2:3 with image\n");
     } else {
-        fprintf(p.pipe, "set key outside right\nset tics out\nplot ");
+        fprintf(p.pipe, "set key outside right noenhanced\nset tics out\nplot ");
         for (int i = 0; i < of->name_count; i++)
             fprintf(p.pipe, "%s$points using 1:($3==%d?$2:1/0) with points pt 5 ps 0.9 title '%s'", i ? ", " : "", i,
                     of->names[i]);

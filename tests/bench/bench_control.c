@@ -47,10 +47,12 @@ static void put_panel(FILE *f, int load)
             fprintf(f, "%g %.3f\n", i / 60.0, runs[load][c].frames[i].ms);
         fprintf(f, "EOD\n");
     }
-    fprintf(f, "set title '%s'\nset xlabel 'seconds'\nset ylabel 'ms a frame'\nset yrange [0:40]\nset key top right\nplot ",
-            plant_load_names[load]);
+    fprintf(
+        f, "set title '%s'\nset xlabel 'seconds'\nset ylabel 'ms a frame'\nset yrange [0:40]\nset key top right\nplot ",
+        plant_load_names[load]);
     for (int c = PLANT_CONTROLS; c-- > 0;)
-        fprintf(f, "$c%d using 1:2 with lines lc '%s' lw %d title '%s', ", c, colors[c], c == 0 ? 2 : 1, plant_control_names[c]);
+        fprintf(f, "$c%d using 1:2 with lines lc '%s' lw %d title '%s', ", c, colors[c], c == 0 ? 2 : 1,
+                plant_control_names[c]);
     fprintf(f, "%g with lines lc '#000000' dt 2 title 'budget'\n", runs[load][0].budget_ms);
 }
 
@@ -75,7 +77,8 @@ int main(int count, char **arguments)
             else if (l == PLANT_STEP || l == PLANT_HOST)
                 snprintf(recovery, sizeof recovery, "never");
             printf("%s,%s,%.4f,%.3f,%s,%.2f\n", plant_load_names[l], plant_control_names[c],
-                   plant_over(run, SETTLED, PLANT_FRAMES), plant_changes(run, SETTLED, PLANT_FRAMES), recovery, accuracy_of(run));
+                   plant_over(run, SETTLED, PLANT_FRAMES), plant_changes(run, SETTLED, PLANT_FRAMES), recovery,
+                   accuracy_of(run));
         }
     gn_context_destroy(context);
     if (count < 2)

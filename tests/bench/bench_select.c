@@ -94,9 +94,17 @@ static double measure_us(gn_context *context)
     scene.light_count = 1;
     scene.objects = p.objects;
     scene.object_count = p.object_count;
-    scene.target = (gn_target){.width = 640, .height = 480, .red_bits = 8, .green_bits = 8, .blue_bits = 8, .alpha_bits = 8,
-                               .depth_bits = 24, .stencil_bits = 8, .image_depth_bits = 24,
-                               .advertised = (1u << GN_CAPABILITY_COUNT) - 1, .proven = (1u << GN_CAPABILITY_COUNT) - 1};
+    scene.target = (gn_target){.width = 640,
+                               .height = 480,
+                               .red_bits = 8,
+                               .green_bits = 8,
+                               .blue_bits = 8,
+                               .alpha_bits = 8,
+                               .depth_bits = 24,
+                               .stencil_bits = 8,
+                               .image_depth_bits = 24,
+                               .advertised = (1u << GN_CAPABILITY_COUNT) - 1,
+                               .proven = (1u << GN_CAPABILITY_COUNT) - 1};
     size = gn_plan_bound(&scene);
     memory = malloc(size);
     if (!memory || gn_plan_make(context, &scene, memory, size, &plan) != GN_OK)
