@@ -81,7 +81,7 @@ static gn_accuracy accuracy_of(const gn_light_state *light, const struct gn_know
 
 static gni_refusal consider(const gn_selection *s, uint32_t light, gni_candidate *c)
 {
-    const int method = c->way.method;
+    const gn_method method = c->way.method;
     const struct gn_known_way *known = &s->knowledge->ways[method][c->variant];
 
     if (!known->is_known)

@@ -115,7 +115,7 @@ static int choose(gn_context *context, gn_rules *rules, const stage *s, const gn
         return fprintf(stderr, "bench_frontier: %s\n", gn_message(context)), 0;
     for (uint32_t i = 1; i < s->light_count; i++)
         least = choices[i].accuracy < choices[least].accuracy ? i : least;
-    m = choices[least].way.method;
+    m = (int)choices[least].way.method;
     v = variant_of(&choices[least].way);
     ms = all->ms[m][v];
     if (isnan(ms))
