@@ -97,6 +97,11 @@ enum {
     GN_VARIANT_COUNT
 };
 
+/* Of a variant; and the variant of a way that has a shadow, GN_VARIANT_COUNT where there is none (masks by nearest). */
+uint32_t gn_variant_scale(int variant);
+gn_upsample gn_variant_upsample(int variant);
+int gn_way_variant(const gn_way *way);
+
 typedef struct gn_knowledge {
     struct gn_known_way {
         int is_known;                /* 0: it is not chosen */

@@ -4,10 +4,6 @@
 #include "gn_select.h"
 #include "gni.h"
 
-/* knowledge.c: of a variant. */
-uint32_t gni_variant_scale(int variant);
-gn_upsample gni_variant_upsample(int variant);
-
 enum {
     GNI_UPDATES = 3, /* 1, 2, 4 frames */
     /* method by variant by update by proxies */

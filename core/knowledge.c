@@ -25,15 +25,25 @@ gn_accuracy gn_accuracy_by_name(const char *name)
     return (gn_accuracy)i;
 }
 
-uint32_t gni_variant_scale(int variant)
+uint32_t gn_variant_scale(int variant)
 {
     return variant == GN_VARIANT_FULL ? 1 : variant <= GN_VARIANT_HALF_DEPTH ? 2 : 4;
 }
 
-gn_upsample gni_variant_upsample(int variant)
+gn_upsample gn_variant_upsample(int variant)
 {
     return variant == GN_VARIANT_HALF_DEPTH || variant == GN_VARIANT_QUARTER_DEPTH ? GN_UPSAMPLE_DEPTH
                                                                                    : GN_UPSAMPLE_BILINEAR;
+}
+
+int gn_way_variant(const gn_way *way)
+{
+    int v = 0;
+
+    while (v < GN_VARIANT_COUNT &&
+           (gn_variant_scale(v) != way->scale || (way->scale > 1 && gn_variant_upsample(v) != way->upsample)))
+        v++;
+    return v;
 }
 
 /* refine has small masks of its own, that are not upsampled. */
@@ -96,7 +106,7 @@ void gn_knowledge_default(gn_knowledge *out)
             k->bytes[GN_COST_PIXEL] = 8.0;
             k->accuracy = (gn_accuracy)defaults[m].accuracy;
             if (m != GN_METHOD_REFINE && v != GN_VARIANT_FULL)
-                make_small(k, m, gni_variant_scale(v), gni_variant_upsample(v) == GN_UPSAMPLE_DEPTH);
+                make_small(k, m, gn_variant_scale(v), gn_variant_upsample(v) == GN_UPSAMPLE_DEPTH);
             for (int c = 0; c < GN_COST_COUNT; c++)
                 k->us[c] *= SLOWER;
         }
@@ -133,8 +143,8 @@ static void read_row(gni_scan *s, gn_knowledge *k)
     read_word(s, upsample);
     read_word(s, accuracy);
     m = (int)gn_method_by_name(method, &one_sided);
-    while (v < GN_VARIANT_COUNT && (gni_variant_scale(v) != scale ||
-                                    (gni_variant_upsample(v) == GN_UPSAMPLE_DEPTH) != (strcmp(upsample, "depth") == 0)))
+    while (v < GN_VARIANT_COUNT && (gn_variant_scale(v) != scale ||
+                                    (gn_variant_upsample(v) == GN_UPSAMPLE_DEPTH) != (strcmp(upsample, "depth") == 0)))
         v++;
     if (s->result == GN_OK && (m == GN_METHOD_TOTAL || v == GN_VARIANT_COUNT || !exists(m, v)))
         gni_scan_fail(s, at, "there is no such way (%s, %g, %s)", method, scale, upsample);

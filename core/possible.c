@@ -12,8 +12,8 @@ void gn_find_possible(const gn_scene *scene, gn_possible *out)
             gni_choice choice;
 
             own.method = (gn_method)m;
-            own.scale = gni_variant_scale(v);
-            own.upsample = gni_variant_upsample(v);
+            own.scale = gn_variant_scale(v);
+            own.upsample = gn_variant_upsample(v);
             own.cache = NULL;
             if (own.upsample == GN_UPSAMPLE_DEPTH && own.shade != GN_SHADE_ADDITIVE)
                 continue; /* dimmed frames take no masks by depth */

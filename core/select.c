@@ -104,8 +104,8 @@ gni_refusal gni_consider(const gn_selection *s, uint32_t light, uint32_t n, gni_
     c->way.update_every = 1u << n / 2 % GNI_UPDATES;
     c->variant = (int)(n / (2 * GNI_UPDATES) % GN_VARIANT_COUNT);
     c->way.method = (gn_method)(n / (2 * GNI_UPDATES * GN_VARIANT_COUNT));
-    c->way.scale = gni_variant_scale(c->variant);
-    c->way.upsample = gni_variant_upsample(c->variant);
+    c->way.scale = gn_variant_scale(c->variant);
+    c->way.upsample = gn_variant_upsample(c->variant);
     return consider(s, light, c);
 }
 
@@ -115,9 +115,7 @@ gni_refusal gni_consider_way(const gn_selection *s, uint32_t light, const gn_way
     c->way = *way;
     if (way->is_dropped)
         return s->budget.quality > GN_ACCURACY_NONE ? GNI_WAY_UNWANTED : GNI_WAY_MAY;
-    while (c->variant < GN_VARIANT_COUNT && (gni_variant_scale(c->variant) != way->scale ||
-                                             (way->scale > 1 && gni_variant_upsample(c->variant) != way->upsample)))
-        c->variant++;
+    c->variant = gn_way_variant(way);
     return c->variant == GN_VARIANT_COUNT ? GNI_WAY_UNKNOWN : consider(s, light, c);
 }
 

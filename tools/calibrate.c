@@ -55,9 +55,8 @@ static int is_measured(int method, int variant)
 static int variant_wish(int method, int variant, stage_wish *wish)
 {
     wish->method = (gn_method)method;
-    wish->scale = variant == GN_VARIANT_FULL ? 1 : variant <= GN_VARIANT_HALF_DEPTH ? 2 : 4;
-    wish->upsample = variant == GN_VARIANT_HALF_DEPTH || variant == GN_VARIANT_QUARTER_DEPTH ? GN_UPSAMPLE_DEPTH
-                                                                                             : GN_UPSAMPLE_BILINEAR;
+    wish->scale = gn_variant_scale(variant);
+    wish->upsample = gn_variant_upsample(variant);
     return method == GN_METHOD_REFINE ? variant == GN_VARIANT_HALF || variant == GN_VARIANT_QUARTER
                                       : method > GN_METHOD_ZPASS;
 }

@@ -122,10 +122,7 @@ static gn_accuracy least_accuracy(const adaptive *a, const gn_knowledge *k)
 
     for (uint32_t i = 0; i < a->light_count; i++) {
         const gn_way *w = &a->ways[i];
-        const int variant =
-            w->scale == 1 ? GN_VARIANT_FULL
-                          : (w->scale == 2 ? GN_VARIANT_HALF : GN_VARIANT_QUARTER) + (w->upsample == GN_UPSAMPLE_DEPTH);
-        const gn_accuracy of = w->is_dropped ? GN_ACCURACY_NONE : k->ways[w->method][variant].accuracy;
+        const gn_accuracy of = w->is_dropped ? GN_ACCURACY_NONE : k->ways[w->method][gn_way_variant(w)].accuracy;
 
         least = of < least ? of : least;
     }

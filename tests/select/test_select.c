@@ -74,13 +74,6 @@ static void make_world(world *w)
         w->selection.budget.memory = power_of_ten(6.7, 7.5);
 }
 
-static int variant_of(const gn_way *way)
-{
-    return way->scale == 1
-               ? GN_VARIANT_FULL
-               : (way->scale == 2 ? GN_VARIANT_HALF : GN_VARIANT_QUARTER) + (way->upsample == GN_UPSAMPLE_DEPTH);
-}
-
 static void check_choice(const world *w, const gn_choice *c)
 {
     const gn_way *way = &c->way;
@@ -90,12 +83,12 @@ static void check_choice(const world *w, const gn_choice *c)
         assert_int_equal(c->accuracy, GN_ACCURACY_NONE);
         return;
     }
-    assert_true(w->knowledge.ways[way->method][variant_of(way)].is_known);
-    assert_true(w->selection.possible.variants[way->method] >> variant_of(way) & 1);
-    assert_true(way->update_every == 1 || w->selection.possible.keeps[way->method] >> variant_of(way) & 1);
+    assert_true(w->knowledge.ways[way->method][gn_way_variant(way)].is_known);
+    assert_true(w->selection.possible.variants[way->method] >> gn_way_variant(way) & 1);
+    assert_true(way->update_every == 1 || w->selection.possible.keeps[way->method] >> gn_way_variant(way) & 1);
     assert_true(way->update_every <= (uint32_t)w->selection.updates);
     assert_true(!way->proxies || w->selection.has_proxies);
-    assert_true(c->accuracy <= w->knowledge.ways[way->method][variant_of(way)].accuracy);
+    assert_true(c->accuracy <= w->knowledge.ways[way->method][gn_way_variant(way)].accuracy);
     assert_true(w->selection.budget.memory == 0.0 || c->cost.memory <= w->selection.budget.memory);
     assert_in_range(c->equal, 1, c->affordable);
     assert_in_range(c->affordable, 1, c->feasible);

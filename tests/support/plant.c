@@ -80,15 +80,12 @@ static double true_ms(const gn_selection *board, const gn_way *ways, int *accura
         const gn_load *load = &board->lights[i].load;
         const gn_way *way = &ways[i];
         const double area = way->method == GN_METHOD_REFINE ? 1.0 : (double)way->scale * way->scale;
-        const int variant = way->scale == 1 ? GN_VARIANT_FULL
-                                            : (way->scale == 2 ? GN_VARIANT_HALF : GN_VARIANT_QUARTER) +
-                                                  (way->upsample == GN_UPSAMPLE_DEPTH);
 
         if (way->is_dropped) {
             *accuracy = GN_ACCURACY_NONE;
             continue;
         }
-        known = &board->knowledge->ways[way->method][variant];
+        known = &board->knowledge->ways[way->method][gn_way_variant(way)];
         *accuracy = (int)known->accuracy < *accuracy ? (int)known->accuracy : *accuracy;
         sum += board->gains[way->method] *
                (known->us[GN_COST_SETUP] / board->light_count + known->us[GN_COST_INDEX] * load->indices +
@@ -120,7 +117,7 @@ static void make_knowledge(gn_knowledge *k)
     gn_knowledge_default(k);
     for (int m = 0; m < GN_METHOD_TOTAL; m++)
         for (int v = 0; v < GN_VARIANT_COUNT; v++) {
-            const double scale = v == GN_VARIANT_FULL ? 1.0 : v <= GN_VARIANT_HALF_DEPTH ? 2.0 : 4.0;
+            const double scale = gn_variant_scale(v);
             const double reads = v == GN_VARIANT_FULL ? 0.0
                                  : v % 2              ? 1.0
                                                       : 3.0; /* of the mask, by the frame's pixels */
