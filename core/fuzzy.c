@@ -20,7 +20,7 @@ double gni_membership(const gn_rules *r, const gni_term *term, double x)
 
     if (term->point_count == 1)
         return x == p[0][0] ? 1.0 : 0.0;
-    if (x <= p[0][0])
+    if (!(x > p[0][0])) /* nor what is no number */
         return p[0][1];
     if (x >= p[term->point_count - 1][0])
         return p[term->point_count - 1][1];
@@ -226,25 +226,35 @@ static uint32_t find_places(const gn_rules *r, const gni_variable *v, double *pl
     return count;
 }
 
-void gni_prepare_rules(gn_rules *r)
+gn_result gni_prepare_rules(gn_rules *r)
 {
-    uint32_t ends = 0;
+    size_t slices = 0, ends = 0;
 
+    for (uint32_t i = 0; i < r->output_count; i++)
+        if (!r->outputs[i].is_by_singletons) {
+            r->outputs[i].slice_count = (uint16_t)(find_places(r, &r->outputs[i], r->places) - 1);
+            slices += r->outputs[i].slice_count;
+            ends += (size_t)r->outputs[i].slice_count * r->outputs[i].term_count;
+        }
+    r->slices = gni_alloc(r->context, 1, slices * sizeof *r->slices + 2 * ends * sizeof *r->slice_ends + 1);
+    if (!r->slices)
+        return gn_fail(r->context, GN_E_MEMORY, "rules: no memory for %lu slices", (unsigned long)slices);
+    r->slice_ends = (double *)(void *)(r->slices + slices);
+    ends = 0;
     for (uint32_t i = 0; i < r->output_count; i++) {
         gni_variable *v = &r->outputs[i];
-        uint32_t count;
 
         v->first_slice = (uint16_t)r->slice_count;
         if (v->is_by_singletons)
             continue;
-        count = find_places(r, v, r->places);
-        for (uint32_t k = 0; k + 1 < count; k++) {
-            r->slices[r->slice_count++] = (gni_slice){r->places[k], r->places[k + 1], ends};
+        find_places(r, v, r->places);
+        for (uint32_t k = 0; k < v->slice_count; k++) {
+            r->slices[r->slice_count++] = (gni_slice){r->places[k], r->places[k + 1], (uint32_t)ends};
             for (uint32_t t = 0; t < v->term_count; t++, ends++)
                 for (uint32_t side = 0; side < 2; side++)
                     r->slice_ends[2 * ends + side] =
                         beside(r, &r->terms[v->first_term + t], r->places[k + side], !side);
         }
-        v->slice_count = (uint16_t)(r->slice_count - v->first_slice);
     }
+    return GN_OK;
 }

@@ -41,7 +41,7 @@ typedef enum gn_accuracy {
 const char *gn_accuracy_name(gn_accuracy accuracy);
 /* GN_ACCURACY_COUNT when there is none of that name. */
 gn_accuracy gn_accuracy_by_name(const char *name);
-/* "stencil", "count@1/2-depth, masks 2 frames, proxies", "none"; like snprintf. */
+/* "stencil", "count@1/2-depth, masks for 2 frames, proxies", "none"; like snprintf. */
 size_t gn_way_name(const gn_way *way, char *text, size_t capacity);
 
 /* ---- Facts and loads ---- */
@@ -72,8 +72,9 @@ typedef struct gn_load {
 } gn_load;
 
 /* A light's load and facts in a plan; of the facts not `lights`, `moving`, `motion`, `headroom`, `power`, which no single plan
- * knows. Fragments are estimated from `samples` pieces of its volumes, of as many as there are [128]. */
-void gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_load *load, gn_facts *facts);
+ * knows. Fragments are estimated from `samples` pieces of its volumes, of as many as there are [128]. 1; 0, and nothing is
+ * written, of a plan that uses masks which are kept: it has no volumes, and what was measured last still holds. */
+int gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_load *load, gn_facts *facts);
 
 /* ---- Knowledge ---- */
 
@@ -131,7 +132,7 @@ typedef struct gn_budget {
     double frame_ms;     /* of a frame, the host's own drawing in it [any] */
     double energy_mw;    /* estimate, of shadows alone [any] */
     double interval_ms;  /* from one frame to the next, for energy [1000/60] */
-    double memory;       /* bytes of images and masks [any] */
+    double memory;       /* bytes of images and masks, of each way for itself [any] */
     gn_accuracy quality; /* of no light less than this: also if that is over budget [shadows may be dropped] */
 } gn_budget;
 
@@ -180,8 +181,9 @@ typedef struct gn_choice {
 
 enum { GN_MOST_SELECTED = 64 }; /* lights */
 
-/* choices: [light_count]. Pure: the same selection, the same choices. Accuracy first: the class that all lights can have, then the
- * next class for as many as can be paid, the most important first; so that with more of a budget no light's class falls.
+/* choices: [light_count]. A way's setup is shared by all lights here, as if they were made alike. Pure: the same selection, the same choices. Accuracy first: the class that all lights can have, then the
+ * next class for as many as can be paid, the most important first; so that with more of a budget no light's class falls
+ * that is granted to it (gn_choice.granted), nor, of one light or of time alone, that of its way.
  * Within a class, of ways that cost within a tenth of the cheapest, what suits best. Returns GN_OK; GN_E_ARG; GN_E_DEVICE
  * when no way is possible and known. Allocates nothing. */
 gn_result gn_select(gn_context *context, const gn_selection *selection, gn_choice *choices);
@@ -201,7 +203,8 @@ gn_result gn_selector_create(gn_context *context, const gn_knowledge *knowledge,
                              gn_selector **selector);
 void gn_selector_destroy(gn_selector *selector);
 
-/* What is asked and possible from the next frame on: lights and gains in it are not read. */
+/* What is asked and possible from the next frame on: lights, rules, knowledge and gains in it are not read. Another
+ * budget is acted on at once. */
 void gn_selector_set(gn_selector *selector, const gn_selection *selection);
 
 /* The ways for the next frame: ways [light_count], at most GN_MOST_SELECTED. A change waits: 8 frames after the last when it saves,
@@ -213,7 +216,7 @@ gn_result gn_selector_next(gn_selector *selector, const gn_light_state *lights, 
 void gn_selector_measured(gn_selector *selector, double frame_ms);
 
 /* What the selector would take if nothing held it back, and by which selection: for gn_explain_choice(). Until the selector's
- * next call. */
+ * next call. Its budget is less what is kept free because frames differ from predictions. */
 void gn_selector_explain(const gn_selector *selector, gn_selection *selection, const gn_choice **choices);
 double gn_selector_predicted(const gn_selector *selector); /* ms of the next frame, by the ways taken */
 

@@ -43,7 +43,7 @@ typedef struct gni_slice {
     uint32_t first_end;
 } gni_slice;
 
-/* All in one block. */
+/* All in one block, but for the slices. */
 struct gn_rules {
     gn_context *context;
     char *text, *names;
@@ -62,5 +62,5 @@ struct gn_rules {
 /* fuzzy.c: how much of a term a value is. */
 double gni_membership(const gn_rules *r, const gni_term *term, double x);
 /* fuzzy.c: slices of outputs by COG. */
-void gni_prepare_rules(gn_rules *rules);
+gn_result gni_prepare_rules(gn_rules *rules);
 #endif

@@ -24,11 +24,14 @@ typedef struct gni_candidate {
     int variant;
     gn_accuracy accuracy;
     gn_cost cost;
+    double setup_ms; /* of cost: this light's part of it, as if all lights were made this way */
     double
         share; /* of the budget that is left for shadows: the greater of time's and energy's; 0 where there is none */
 } gni_candidate;
 
-/* select.c: way number n of a light. */
+/* select.c: what a budget leaves for shadows; INFINITY: any. */
+void gni_allowance(const gn_selection *s, double *ms, double *mj);
+/* Way number n of a light. */
 gni_refusal gni_consider(const gn_selection *s, uint32_t light, uint32_t n, gni_candidate *out);
 /* The same for a way that is at hand. */
 gni_refusal gni_consider_way(const gn_selection *s, uint32_t light, const gn_way *way, gni_candidate *out);

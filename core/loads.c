@@ -162,16 +162,18 @@ static double border_of(const gn_plan *plan, const gn_plan_object *object)
            2.0 / ((double)plan->target.width + plan->target.height);
 }
 
-void gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_load *load, gn_facts *facts)
+int gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_load *load, gn_facts *facts)
 {
     const gn_plan_light *l = &plan->lights[light];
     double sides = 0.0, caps = 0.0, border = 0.0;
     sampler of_sides, of_caps;
 
+    if (plan->mask_age > 0)
+        return 0;
     memset(load, 0, sizeof *load);
     memset(facts, 0, sizeof *facts);
     if (l->skip != GN_SKIP_NOT)
-        return;
+        return 1;
     load->pixels = (double)l->scissor[2] * l->scissor[3];
     for (uint32_t i = 0; i < plan->record_count; i++) {
         const gn_record *r = &plan->records[i];
@@ -208,4 +210,5 @@ void gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_l
     facts->edges = sides;
     facts->layers = load->pixels > 0.0 ? load->fragments / (2.0 * load->pixels) : 0.0;
     facts->nearness = fmin(border, 1.0);
+    return 1;
 }

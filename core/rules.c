@@ -425,7 +425,7 @@ static void *cut(gn_rules *r, size_t *used, size_t number, size_t size)
 /* The arrays behind the rules themselves; rules NULL: only how much they are. */
 static size_t lay_out(gn_rules *rules, const counts *c)
 {
-    const size_t points = c->of['='] + c->of['('] + 1, slices = points + 2 * c->of[':'];
+    const size_t points = c->of['='] + c->of['('] + 1;
     size_t used = 0;
     gn_rules r;
 
@@ -442,8 +442,6 @@ static size_t lay_out(gn_rules *rules, const counts *c)
     r.thens = cut(rules, &used, c->words, sizeof *r.thens);
     r.degrees = cut(rules, &used, c->of['='] + 1, sizeof *r.degrees);
     r.places = cut(rules, &used, points + 2, sizeof *r.places);
-    r.slices = cut(rules, &used, slices, sizeof *r.slices);
-    r.slice_ends = cut(rules, &used, 2 * GNI_MOST_TERMS * slices, sizeof *r.slice_ends);
     if (rules)
         *rules = r;
     return used;
@@ -476,17 +474,19 @@ gn_result gn_rules_create(gn_context *context, const char *text, size_t length, 
     p.r = r;
     gni_scan_start(&p.scan, context, "rules", r->text, length);
     read_text(&p);
-    if (is_ok(&p)) {
-        gni_prepare_rules(r);
+    if (is_ok(&p))
+        p.scan.result = gni_prepare_rules(r);
+    if (is_ok(&p))
         *rules = r;
-    } else {
+    else
         gn_rules_destroy(r);
-    }
     return p.scan.result;
 }
 
 void gn_rules_destroy(gn_rules *r)
 {
-    if (r)
-        gni_free(r->context, r);
+    if (!r)
+        return;
+    gni_free(r->context, r->slices);
+    gni_free(r->context, r);
 }

@@ -16,8 +16,7 @@
 
 enum { CLASSES = GN_ACCURACY_COUNT };
 
-/* What a budget leaves for shadows, in ms and mJ; INFINITY: any. */
-static void allowance(const gn_selection *s, double *ms, double *mj)
+void gni_allowance(const gn_selection *s, double *ms, double *mj)
 {
     const double interval = s->budget.interval_ms > 0.0 ? s->budget.interval_ms : 1000.0 / 60.0;
 
@@ -51,13 +50,14 @@ static void find_cost(const gn_selection *s, const gn_light_state *light, const 
         /* a mask that is kept is read all the same */
         const double count = counts[i] / (i == GN_COST_PIXEL ? 1.0 : way->update_every);
 
+        c->setup_ms += i == GN_COST_SETUP ? gain * known->us[i] * count / 1000.0 : 0.0;
         us += known->us[i] * count;
         bytes += known->bytes[i] * count;
     }
     c->cost.ms = gain * us / 1000.0;
     c->cost.mj = bytes * MILLIJOULES_A_BYTE;
     c->cost.memory = memory_of(s, way);
-    allowance(s, &ms_left, &mj_left);
+    gni_allowance(s, &ms_left, &mj_left);
     c->share = fmax(isinf(ms_left) ? 0.0 : c->cost.ms / ms_left, isinf(mj_left) ? 0.0 : c->cost.mj / mj_left);
 }
 
@@ -84,7 +84,7 @@ static gni_refusal consider(const gn_selection *s, uint32_t light, gni_candidate
     const gn_method method = c->way.method;
     const struct gn_known_way *known = &s->knowledge->ways[method][c->variant];
 
-    if (!known->is_known)
+    if (method < GN_METHOD_STENCIL || !known->is_known) /* z-fail and z-pass are what stencil is measured by */
         return GNI_WAY_UNKNOWN;
     if (!(s->possible.variants[method] >> c->variant & 1))
         return GNI_WAY_IMPOSSIBLE;
@@ -111,12 +111,17 @@ gni_refusal gni_consider(const gn_selection *s, uint32_t light, uint32_t n, gni_
 
 gni_refusal gni_consider_way(const gn_selection *s, uint32_t light, const gn_way *way, gni_candidate *c)
 {
+    gni_refusal refusal;
+
     memset(c, 0, sizeof *c);
     c->way = *way;
     if (way->is_dropped)
         return s->budget.quality > GN_ACCURACY_NONE ? GNI_WAY_UNWANTED : GNI_WAY_MAY;
     c->variant = gn_way_variant(way);
-    return c->variant == GN_VARIANT_COUNT ? GNI_WAY_UNKNOWN : consider(s, light, c);
+    if (c->variant == GN_VARIANT_COUNT)
+        return GNI_WAY_UNKNOWN;
+    refusal = consider(s, light, c);
+    return refusal == GNI_WAY_MAY && c->accuracy < s->budget.quality ? GNI_WAY_UNWANTED : refusal;
 }
 
 /* ------------------------------------------------------------------ classes */
@@ -126,6 +131,7 @@ typedef struct ladder {
     double share[CLASSES];
     gn_accuracy reaches[CLASSES];
     uint16_t feasible;
+    int too_large; /* a way is possible, but for its memory */
 } ladder;
 
 static int climb(const gn_selection *s, uint32_t light, ladder *l)
@@ -133,6 +139,7 @@ static int climb(const gn_selection *s, uint32_t light, ladder *l)
     int best = GN_ACCURACY_NONE;
 
     l->feasible = 0;
+    l->too_large = 0;
     for (int c = 0; c < CLASSES; c++) {
         l->share[c] = c ? INFINITY : 0.0;
         l->reaches[c] = GN_ACCURACY_NONE;
@@ -140,7 +147,10 @@ static int climb(const gn_selection *s, uint32_t light, ladder *l)
     for (uint32_t n = 0; n < GNI_WAYS; n++) {
         gni_candidate c;
 
-        if (gni_consider(s, light, n, &c) != GNI_WAY_MAY)
+        const gni_refusal refusal = gni_consider(s, light, n, &c);
+
+        l->too_large |= refusal == GNI_WAY_TOO_LARGE;
+        if (refusal != GNI_WAY_MAY)
             continue;
         l->feasible++;
         best = (int)c.accuracy > best ? (int)c.accuracy : best;
@@ -155,7 +165,7 @@ static int climb(const gn_selection *s, uint32_t light, ladder *l)
         l->share[c] = l->share[best];
         l->reaches[c] = l->reaches[best];
     }
-    return best > GN_ACCURACY_NONE;
+    return best > GN_ACCURACY_NONE || l->too_large; /* what memory alone forbids is dropped */
 }
 
 static void order_by_importance(const gn_selection *s, uint32_t *order)
@@ -228,7 +238,7 @@ static void prefer(const gn_selection *s, uint32_t light, int accuracy, double s
         uint32_t output;
         double suitability;
 
-        if (gni_consider(s, light, n, &c) != GNI_WAY_MAY || c.share > share)
+        if (gni_consider(s, light, n, &c) != GNI_WAY_MAY || c.share > share || c.accuracy < s->budget.quality)
             continue;
         out->affordable++;
         if ((accuracy >= 0 && (int)c.accuracy != accuracy) || c.cost.ms > most)
@@ -248,6 +258,19 @@ static void prefer(const gn_selection *s, uint32_t light, int accuracy, double s
     }
 }
 
+static int is_sound(const gn_light_state *l)
+{
+    gn_facts facts = l->facts;
+    const double others[] = {l->load.indices, l->load.fragments, l->load.pixels, l->importance};
+    int ok = 1;
+
+    for (int f = 0; f < GN_FACT_COUNT; f++)
+        ok &= *gn_fact(&facts, f) >= 0.0 && isfinite(*gn_fact(&facts, f));
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        ok &= others[i] >= 0.0 && isfinite(others[i]);
+    return ok;
+}
+
 static gn_result check(gn_context *context, const gn_selection *s)
 {
     if (!s->knowledge || (s->light_count && !s->lights))
@@ -260,11 +283,17 @@ static gn_result check(gn_context *context, const gn_selection *s)
     if (!(s->budget.frame_ms >= 0.0 && s->budget.energy_mw >= 0.0 && s->budget.memory >= 0.0 && s->host_ms >= 0.0))
         return gn_fail(context, GN_E_ARG, "gn_select: a budget is not negative (%g ms, %g mW, %g bytes, host %g ms)",
                        s->budget.frame_ms, s->budget.energy_mw, s->budget.memory, s->host_ms);
+    for (uint32_t i = 0; i < s->light_count; i++)
+        if (!is_sound(&s->lights[i]))
+            return gn_fail(context, GN_E_ARG, "gn_select: light %lu: a fact, load or importance is no number from 0 on",
+                           (unsigned long)i);
     return s->rules ? gni_check_rules(context, s->rules) : GN_OK;
 }
 
 void gni_suit_light(const gn_selection *s, uint32_t light, double used_ms, gni_suits *suits)
 {
+    for (size_t i = 0; i < sizeof suits->outputs / sizeof suits->outputs[0]; i++)
+        suits->outputs[i] = NAN; /* until a rule says something: outputs whose DEFAULT is NC stay so */
     suits->facts = s->lights[light].facts;
     suits->facts.headroom =
         s->budget.frame_ms > 0.0 ? fmin(fmax(1.0 - (s->host_ms + used_ms) / s->budget.frame_ms, 0.0), 1.0) : 1.0;
@@ -313,7 +342,7 @@ gn_result gn_select(gn_context *context, const gn_selection *s, gn_choice *choic
         c->is_over_budget = is_over;
         c->granted = level[i] < l->reaches[level[i]] ? (gn_accuracy)level[i] : l->reaches[level[i]];
         c->accuracy = l->reaches[level[i]];
-        c->way.is_dropped = level[i] == GN_ACCURACY_NONE;
+        c->way.is_dropped = c->accuracy == GN_ACCURACY_NONE;
         if (c->way.is_dropped && !s->prefers)
             continue;
         gni_suit_light(s, i, used_ms, &suits);

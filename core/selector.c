@@ -66,6 +66,7 @@ gn_result gn_selector_create(gn_context *context, const gn_knowledge *knowledge,
         gn_knowledge_default(&s->knowledge);
     gni_learn_start(&s->learner);
     s->wait_up = UP_FRAMES;
+    s->since_up = FAILS;
     *selector = s;
     return GN_OK;
 }
@@ -80,7 +81,12 @@ void gn_selector_destroy(gn_selector *s)
 
 void gn_selector_set(gn_selector *s, const gn_selection *selection)
 {
+    const int is_other = memcmp(&s->selection.budget, &selection->budget, sizeof selection->budget) != 0 ||
+                         memcmp(&s->selection.possible, &selection->possible, sizeof selection->possible) != 0;
+
     s->selection = *selection;
+    if (is_other)
+        s->since = s->wait_up = UP_FRAMES;
 }
 
 /* ------------------------------------------------------------------ what is used */
@@ -102,19 +108,39 @@ static gn_selection selection_of(const gn_selector *s, double share)
     return of;
 }
 
-/* Shares of the budget that the ways take; INFINITY where one of them may not be taken. */
+static int is_same(const gn_way *a, const gn_way *b)
+{
+    if (a->is_dropped || b->is_dropped)
+        return a->is_dropped == b->is_dropped;
+    return a->method == b->method && a->scale == b->scale && (a->scale == 1 || a->upsample == b->upsample) &&
+           a->update_every == b->update_every && a->proxies == b->proxies;
+}
+
+/* What a light's way takes of a frame's time: its part of the setup, or all of it if it is the first that is made so. */
+static double ms_of(const gn_way *ways, uint32_t light, uint32_t light_count, const gni_candidate *c)
+{
+    int is_first = 1;
+
+    for (uint32_t i = 0; i < light; i++)
+        is_first &= !is_same(&ways[i], &ways[light]);
+    return c->cost.ms + ((is_first ? light_count : 0.0) - 1.0) * c->setup_ms;
+}
+
+/* The share of the budget that the ways take; INFINITY where one of them may not be taken. */
 static double usage(const gn_selection *of, const gn_way *ways)
 {
-    double sum = 0.0;
+    double ms = 0.0, mj = 0.0, ms_left, mj_left;
 
     for (uint32_t i = 0; i < of->light_count; i++) {
         gni_candidate c;
 
         if (gni_consider_way(of, i, &ways[i], &c) != GNI_WAY_MAY)
             return INFINITY;
-        sum += c.share;
+        ms += ways[i].is_dropped ? 0.0 : ms_of(ways, i, of->light_count, &c);
+        mj += c.cost.mj;
     }
-    return sum;
+    gni_allowance(of, &ms_left, &mj_left);
+    return fmax(isinf(ms_left) ? 0.0 : ms / ms_left, isinf(mj_left) ? 0.0 : mj / mj_left);
 }
 
 /* ------------------------------------------------------------------ steps */
@@ -140,29 +166,42 @@ static void turn_knob(gn_way *way, const gn_way *to, int knob)
     }
 }
 
-static int is_same(const gn_way *a, const gn_way *b)
+/* Small masks are what refine is made of: to it and from it they change together. */
+static void turn_refine(gn_way *way, const gn_way *to)
 {
-    if (a->is_dropped || b->is_dropped)
-        return a->is_dropped == b->is_dropped;
-    return a->method == b->method && a->scale == b->scale && (a->scale == 1 || a->upsample == b->upsample) &&
-           a->update_every == b->update_every && a->proxies == b->proxies;
+    way->method = to->method;
+    way->scale = to->scale;
+    way->upsample = to->upsample;
 }
 
-/* The first knob towards another way that leads where one may go, and does not cost more than both ends; all of it where none
- * does, and where a shadow comes or goes. */
+/* What a way takes of the budget; where there is none, of time. */
+static double weight_of(const gni_candidate *c)
+{
+    return c->share > 0.0 ? c->share : 1e-9 * c->cost.ms;
+}
+
+/* The first knob towards another way that leads where one may go, and is neither dearer nor less accurate than both ends; all of it
+ * where none does, and where a shadow comes or goes. */
 static gn_way step_towards(const gn_selection *of, uint32_t light, const gn_way *from, const gn_way *to)
 {
+    const int is_refined = (from->method == GN_METHOD_REFINE) != (to->method == GN_METHOD_REFINE);
     gni_candidate ends[2], c;
+    gn_accuracy least;
     double most;
 
     gni_consider_way(of, light, from, &ends[0]);
     gni_consider_way(of, light, to, &ends[1]);
-    most = fmax(ends[0].cost.ms, ends[1].cost.ms);
-    for (int knob = 0; knob < 5 && !from->is_dropped && !to->is_dropped; knob++) {
+    most = fmax(weight_of(&ends[0]), weight_of(&ends[1]));
+    least = ends[0].accuracy < ends[1].accuracy ? ends[0].accuracy : ends[1].accuracy;
+    for (int knob = is_refined ? 2 : 0; knob < 5 && !from->is_dropped && !to->is_dropped; knob++) {
         gn_way way = *from;
 
-        turn_knob(&way, to, knob);
-        if (!is_same(&way, from) && gni_consider_way(of, light, &way, &c) == GNI_WAY_MAY && c.cost.ms <= most)
+        if (knob == 4 && is_refined)
+            turn_refine(&way, to);
+        else
+            turn_knob(&way, to, knob);
+        if (!is_same(&way, from) && gni_consider_way(of, light, &way, &c) == GNI_WAY_MAY && weight_of(&c) <= most &&
+            c.accuracy >= least)
             return way;
     }
     return *to;
@@ -182,50 +221,65 @@ static void take(gn_selector *s, uint32_t light, const gn_way *way, int spends)
     }
 }
 
-/* One step to save: of the least important light whose way differs from what is wanted and costs more. */
-static void save(gn_selector *s, const gn_selection *of, const gn_choice *wanted)
+/* Whether a light's way takes more than what is wanted for it. */
+static int is_dearer(const gn_selector *s, const gn_selection *of, const gn_choice *wanted, uint32_t light)
+{
+    gni_candidate now, then;
+
+    if (is_same(&s->ways[light], &wanted[light].way))
+        return 0;
+    gni_consider_way(of, light, &s->ways[light], &now);
+    gni_consider_way(of, light, &wanted[light].way, &then);
+    return weight_of(&now) > weight_of(&then);
+}
+
+/* One step to save: of the least important light, but for one, whose way takes more than what is wanted. spends: it makes room. */
+static void save(gn_selector *s, const gn_selection *of, const gn_choice *wanted, uint32_t but, int spends)
 {
     uint32_t at = UINT32_MAX;
 
-    for (uint32_t i = 0; i < of->light_count; i++) {
-        gni_candidate c;
-
-        if (is_same(&s->ways[i], &wanted[i].way))
-            continue;
-        gni_consider_way(of, i, &s->ways[i], &c);
-        if (c.cost.ms > wanted[i].cost.ms && (at == UINT32_MAX || of->lights[i].importance < of->lights[at].importance))
+    for (uint32_t i = 0; i < of->light_count; i++)
+        if (i != but && is_dearer(s, of, wanted, i) &&
+            (at == UINT32_MAX || of->lights[i].importance < of->lights[at].importance))
             at = i;
-    }
     if (at != UINT32_MAX) {
         const gn_way way = step_towards(of, at, &s->ways[at], &wanted[at].way);
 
-        take(s, at, &way, 0);
+        take(s, at, &way, spends);
     }
 }
 
-/* One step to be more accurate, or as accurate for clearly less: of the most important light that can. */
+static int is_worth_it(const gn_selector *s, const gn_selection *of, const gn_choice *wanted, uint32_t light)
+{
+    gni_candidate now, then;
+
+    if (is_same(&s->ways[light], &wanted[light].way))
+        return 0;
+    if (gni_consider_way(of, light, &s->ways[light], &now) != GNI_WAY_MAY)
+        return 1;
+    gni_consider_way(of, light, &wanted[light].way, &then);
+    return then.accuracy > now.accuracy ||
+           (then.accuracy == now.accuracy && weight_of(&then) < CHEAPER * weight_of(&now));
+}
+
+/* One step to be more accurate, or as accurate for clearly less: of the most important light that can. Where it does not fit until
+ * another gives way, that one's first. */
 static void spend(gn_selector *s, const gn_selection *of, const gn_choice *wanted)
 {
     gn_way ways[GN_MOST_SELECTED];
     uint32_t at = UINT32_MAX;
 
-    for (uint32_t i = 0; i < of->light_count; i++) {
-        gni_candidate c;
-
-        if (is_same(&s->ways[i], &wanted[i].way))
-            continue;
-        if (gni_consider_way(of, i, &s->ways[i], &c) == GNI_WAY_MAY && wanted[i].accuracy <= c.accuracy &&
-            !(wanted[i].accuracy == c.accuracy && wanted[i].cost.ms < CHEAPER * c.cost.ms))
-            continue;
-        if (at == UINT32_MAX || of->lights[i].importance > of->lights[at].importance)
+    for (uint32_t i = 0; i < of->light_count; i++)
+        if (is_worth_it(s, of, wanted, i) && (at == UINT32_MAX || of->lights[i].importance > of->lights[at].importance))
             at = i;
-    }
     if (at == UINT32_MAX)
         return;
     memcpy(ways, s->ways, of->light_count * sizeof *ways);
     ways[at] = step_towards(of, at, &s->ways[at], &wanted[at].way);
     if (usage(of, ways) <= 1.0)
         take(s, at, &ways[at], 1);
+    else
+        save(s, of, wanted, at, 1);
 }
 
 /* ------------------------------------------------------------------ frames */
@@ -257,7 +311,7 @@ static void swap_loads(gn_selector *s)
     }
 }
 
-/* What the ways in use are predicted to take, by method and without gains. */
+/* What the ways in use are predicted to take, by method and without gains. Each different way is set up once. */
 static void predict(gn_selector *s)
 {
     const double ones[GN_METHOD_TOTAL] = {1, 1, 1, 1, 1, 1, 1, 1, 1};
@@ -269,8 +323,21 @@ static void predict(gn_selector *s)
         gni_candidate c;
 
         if (!s->ways[i].is_dropped && gni_consider_way(&of, i, &s->ways[i], &c) == GNI_WAY_MAY)
-            s->parts[s->ways[i].method] += c.cost.ms;
+            s->parts[s->ways[i].method] += ms_of(s->ways, i, s->light_count, &c);
     }
+}
+
+/* What costs no more than now, but serves a more important light: nothing needs to be free for that. */
+static int redistribute(gn_selector *s, const gn_selection *of, double used)
+{
+    gn_way ways[GN_MOST_SELECTED];
+
+    for (uint32_t i = 0; i < of->light_count; i++)
+        ways[i] = s->wanted[i].way;
+    if (usage(of, ways) > used * (1.0 + 1e-9))
+        return 0;
+    spend(s, of, s->wanted);
+    return s->has_changed;
 }
 
 static gn_result decide(gn_selector *s, uint32_t known)
@@ -287,8 +354,10 @@ static gn_result decide(gn_selector *s, uint32_t known)
     for (uint32_t i = 0; i < s->light_count; i++) { /* lights that are new, and ways that are possible no more */
         gni_candidate c;
 
-        if (i >= known || gni_consider_way(&of, i, &s->ways[i], &c) != GNI_WAY_MAY)
+        if (i >= known || gni_consider_way(&of, i, &s->ways[i], &c) != GNI_WAY_MAY) {
             s->ways[i] = s->wanted[i].way;
+            s->has_changed = 1;
+        }
     }
     used = usage(&of, s->ways);
     if (is_panic && used > 1.0) {
@@ -300,10 +369,12 @@ static gn_result decide(gn_selector *s, uint32_t known)
     }
     if (used > 1.0) {
         if (s->since >= DOWN_FRAMES)
-            save(s, &of, s->wanted);
+            save(s, &of, s->wanted, UINT32_MAX, 0);
         return GN_OK;
     }
     if (s->since < s->wait_up)
+        return GN_OK;
+    if (redistribute(s, &of, used))
         return GN_OK;
     swap_loads(s);
     of = selection_of(s, FREE);
@@ -343,7 +414,7 @@ void gn_selector_measured(gn_selector *s, double frame_ms)
 {
     const double budget = s->selection.budget.frame_ms;
 
-    if (!(frame_ms > 0.0) || (s->has_changed && s->learner.is_started))
+    if (!(frame_ms > 0.0 && isfinite(frame_ms)) || (s->has_changed && s->learner.is_started))
         return;
     gni_learn(&s->learner, s->parts, frame_ms);
     s->over = budget > 0.0 && frame_ms > budget ? s->over + 1 : 0;

@@ -35,10 +35,13 @@ const char help_calibrate[] =
  * would be measured with it for some frames. */
 static const struct sample {
     int coarse, fine;
-} samples[] = {{2, 0}, {4, 0}, {3, 1}, {6, 0}};
+} samples[] = {{2, 0}, {3, 1}, {5, 0}};
 enum { SAMPLES = sizeof samples / sizeof samples[0], DRAWS = 2, LIGHTS = 2 };
 
-#define SPREAD 0.1 /* of ways' multiples about the board's, as is likely */
+#define SPREAD 0.05 /* of ways' multiples about the board's, as is likely */
+#define DEARER                                                                                                         \
+    1.2 /* the sample is than test scenes with as much to draw, by the default's coefficients (bench_predict) */
+#define ENOUGH 1700 /* ms: no further way is observed; what was not follows what was */
 
 typedef struct observed {
     double counts[SAMPLES][FIT_MOST], us[SAMPLES], bytes[SAMPLES];
@@ -117,44 +120,44 @@ static int observe(stage *s, const stage_wish *wish, observed *o)
 }
 
 /* A sample by all ways, and without shadows before each of them, so that both meet the same machine. */
-static int observe_sample(stage *s, observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT], char message[SCENE_MESSAGE])
+static int observe_sample(stage *s, double until, observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT],
+                          char message[SCENE_MESSAGE])
 {
     const stage_wish plain = {.method = GN_METHOD_AUTO, .light_count = LIGHTS};
     double us[1 + GN_METHOD_TOTAL * GN_VARIANT_COUNT], bytes = 0.0;
-    int count = 0;
+    observed *fresh[GN_METHOD_TOTAL * GN_VARIANT_COUNT];
+    int count = 0, fresh_count = 0;
 
     for (int m = 0; m < GN_METHOD_TOTAL; m++)
         for (int v = 0; v < GN_VARIANT_COUNT; v++) {
             stage_wish wish = {.casting = 1, .light_count = LIGHTS};
 
-            if (!variant_wish(m, v, &wish) || !is_measured(m, v))
+            if (!variant_wish(m, v, &wish) || !is_measured(m, v) || now_ms() > until)
                 continue;
             for (int k = count ? 1 : 0; k < 2; k++) /* the first of all makes what is kept */
                 if (!draw(s, &plain, &us[count], message))
                     return 0;
             count++;
             bytes = traffic_of(s);
-            observe(s, &wish, &all[m][v]);
+            if (observe(s, &wish, &all[m][v]))
+                fresh[fresh_count++] = &all[m][v];
         }
     qsort(us, (size_t)count, sizeof *us, by_value);
-    for (int m = 0; m < GN_METHOD_TOTAL; m++)
-        for (int v = 0; v < GN_VARIANT_COUNT; v++) {
-            observed *o = &all[m][v];
-
-            if (o->rows > 0) {
-                o->us[o->rows - 1] -= us[count / 2];
-                o->bytes[o->rows - 1] -= bytes;
-            }
-        }
+    for (int i = 0; i < fresh_count; i++) {
+        fresh[i]->us[fresh[i]->rows - 1] -= us[count / 2];
+        fresh[i]->bytes[fresh[i]->rows - 1] -= bytes;
+    }
     return 1;
 }
 
 static int observe_all(stage *s, scene *of, observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT],
                        char message[SCENE_MESSAGE])
 {
-    for (int i = 0; i < SAMPLES; i++) {
+    const double until = now_ms() + ENOUGH;
+
+    for (int i = 0; i < SAMPLES && now_ms() < until; i++) {
         sample_scene_cast(of, samples[i].coarse, samples[i].fine);
-        if (!observe_sample(s, all, message))
+        if (!observe_sample(s, until, all, message))
             return 0;
     }
     return 1;
@@ -184,7 +187,7 @@ static double board_multiple(observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT], co
         for (int v = 0; v < GN_VARIANT_COUNT; v++)
             if (k->ways[m][v].is_known && all[m][v].rows > 0)
                 multiples[count++] = multiple_of(&all[m][v], all[m][v].us, k->ways[m][v].us, &expected);
-    return count ? fmax(spread_of(multiples, count).median, 1e-3) : 1.0;
+    return count ? fmax(spread_of(multiples, count).median / DEARER, 1e-3) : 1.0;
 }
 
 /* A way's own multiple, drawn to the board's by as much as its rows disagree. */

@@ -476,6 +476,10 @@ static int check_adaptive(const job *j)
                   {"--masks-every", j->masks_every > 1},
                   {"--update-every", j->update_every > 1}};
 
+    if (!is_adaptive(j) && (j->adaptive.given.quality || j->adaptive.given.rules || j->adaptive.given.knowledge)) {
+        say("render: --quality, --rules and --knowledge are the selector's: give a budget too (none given)");
+        return 0;
+    }
     for (size_t i = 0; is_adaptive(j) && i < sizeof others / sizeof others[0]; i++)
         if (others[i].is_given) {
             say("render: a budget leaves the choice to the selector: leave out %s", others[i].name);

@@ -122,8 +122,9 @@ static gn_accuracy least_accuracy(const adaptive *a, const gn_knowledge *k)
 
     for (uint32_t i = 0; i < a->light_count; i++) {
         const gn_way *w = &a->ways[i];
-        const gn_accuracy of = w->is_dropped ? GN_ACCURACY_NONE : k->ways[w->method][gn_way_variant(w)].accuracy;
+        gn_accuracy of = w->is_dropped ? GN_ACCURACY_NONE : k->ways[w->method][gn_way_variant(w)].accuracy;
 
+        of = w->proxies && of > GN_ACCURACY_FAIR ? GN_ACCURACY_FAIR : of;
         least = of < least ? of : least;
     }
     return least;

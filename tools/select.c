@@ -15,7 +15,7 @@ const char help_select[] =
     "\n"
     "Chooses how a light's shadows are made, from its facts and load, without drawing. Prints the way.\n"
     "\n"
-    "  --fact NAME=VALUE     lights, moving, layers, faces, edges, nearness, motion, headroom, power; or of the load:\n"
+    "  --fact NAME=VALUE     lights, moving, layers, faces, edges, nearness, motion, power; or of the load:\n"
     "                        indices, fragments, pixels [lights 1, nearness 0.3, motion 0.1, power 1, layers 2,\n"
     "                        faces 2000, edges 500; fragments: twice layers times pixels; pixels 100000;\n"
     "                        indices: 12 an edge]\n"
@@ -79,6 +79,10 @@ static int parse_facts(job *j)
         at = find_fact("--fact", text, (size_t)(equals - text));
         if (at < 0)
             return 0;
+        if (at < GN_FACT_COUNT && strcmp(gn_fact_name(at), "headroom") == 0) {
+            say("--fact: headroom follows from --budget-ms and --host-ms (%s)", text);
+            return 0;
+        }
         j->values[at] = strtod(equals + 1, &end);
         if (end == equals + 1 || *end || !(j->values[at] >= 0.0 && j->values[at] <= 1e12)) {
             say("--fact: takes a number from 0 to 1e12 (%s)", text);

@@ -47,21 +47,21 @@ static int load_knowledge(const char *path, gn_context *context, gn_knowledge *o
     return ok;
 }
 
-/* A file that cannot be read as rules is found out here, with its name. */
+/* A file that cannot be read as rules, or asks for facts that there are not, is found out here, with its name. */
 static int load_rules(const char *path, gn_context *context, selecting_files *out)
 {
-    gn_rules *rules;
+    gn_selector *trial;
 
     if (!path)
         return 1;
     out->rules = read_file(path, &out->rules_length);
     if (!out->rules)
         return 0;
-    if (gn_rules_create(context, out->rules, out->rules_length, &rules) != GN_OK) {
+    if (gn_selector_create(context, NULL, out->rules, out->rules_length, &trial) != GN_OK) {
         say("%s: %s", path, gn_message(context));
         return 0;
     }
-    gn_rules_destroy(rules);
+    gn_selector_destroy(trial);
     return 1;
 }
 

@@ -283,6 +283,48 @@ static void what_cannot_be_says_so(void **state)
     assert_non_null(strstr(gn_message(test_context), "(-1 ms"));
 }
 
+/* What only a struct can say: that z-fail is known. What suits goes no lower than the floor. Outputs that no rule reaches and whose DEFAULT
+ * is NC say nothing. */
+static void takes_no_liberties(void **state)
+{
+    static const char text[] =
+        "FUNCTION_BLOCK f VAR_INPUT layers : REAL; END_VAR VAR_OUTPUT half : REAL; full : REAL; END_VAR\n"
+        "FUZZIFY layers TERM many := (4, 0) (8, 1); END_FUZZIFY\n"
+        "DEFUZZIFY half TERM good := 90; METHOD : COGS; DEFAULT := NC; END_DEFUZZIFY\n"
+        "DEFUZZIFY full TERM poor := 10; METHOD : COGS; DEFAULT := 10; END_DEFUZZIFY\n"
+        "RULEBLOCK RULE 1 : if layers is many then half is good; END_RULEBLOCK END_FUNCTION_BLOCK";
+    gn_choice first, second;
+    gn_rules *own;
+    world w;
+
+    (void)state;
+    assert_int_equal(gn_rules_create(test_context, text, strlen(text), &own), GN_OK);
+    make_world(&w);
+    memset(&w.selection.budget, 0, sizeof w.selection.budget);
+    memset(w.selection.possible.variants, 0xff, sizeof w.selection.possible.variants);
+    gn_knowledge_default(&w.knowledge);
+    w.knowledge.ways[GN_METHOD_ZFAIL][0] = w.knowledge.ways[GN_METHOD_STENCIL][0];
+    w.selection.light_count = 1;
+    w.selection.updates = 1;
+    w.selection.rules = own;
+    w.selection.prefers = 1;
+    w.lights[0].facts.layers = 10.0;
+    assert_int_equal(gn_select(test_context, &w.selection, &first), GN_OK);
+    assert_true(first.way.method >= GN_METHOD_STENCIL);
+    w.lights[0].facts.layers = 0.0;
+    assert_int_equal(gn_select(test_context, &w.selection, &first), GN_OK);
+    w.lights[0].facts.layers = 10.0;
+    assert_int_equal(gn_select(test_context, &w.selection, &second), GN_OK);
+    w.lights[0].facts.layers = 0.0;
+    assert_int_equal(gn_select(test_context, &w.selection, &second), GN_OK);
+    assert_true(first.suitability == second.suitability);
+    w.lights[0].facts.layers = 10.0;
+    w.selection.budget.quality = GN_ACCURACY_EXACT;
+    assert_int_equal(gn_select(test_context, &w.selection, &first), GN_OK);
+    assert_int_equal(first.accuracy, GN_ACCURACY_EXACT);
+    gn_rules_destroy(own);
+}
+
 #define KNOWLEDGE                                                                                                      \
     "method,scale,upsample,accuracy,us_setup,us_index,us_fragment,us_pixel,us_switch,bytes_setup,bytes_index,"         \
     "bytes_fragment,bytes_pixel,bytes_switch\n"
@@ -369,6 +411,7 @@ int main(void)
         cmocka_unit_test(is_explained_by_rules_that_hold),
         cmocka_unit_test(all_zero_is_exact_whatever_it_costs),
         cmocka_unit_test(what_cannot_be_says_so),
+        cmocka_unit_test(takes_no_liberties),
         cmocka_unit_test(reads_knowledge),
         cmocka_unit_test(names_ways),
     };

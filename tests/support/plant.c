@@ -69,6 +69,14 @@ static void set_lights(gn_light_state lights[PLANT_LIGHTS], double load)
     }
 }
 
+static int is_first(const gn_way *ways, uint32_t light)
+{
+    for (uint32_t i = 0; i < light; i++)
+        if (memcmp(&ways[i], &ways[light], sizeof ways[i]) == 0)
+            return 0;
+    return 1;
+}
+
 /* What the ways take, in a selection that is the board's own. */
 static double true_ms(const gn_selection *board, const gn_way *ways, int *accuracy)
 {
@@ -88,7 +96,7 @@ static double true_ms(const gn_selection *board, const gn_way *ways, int *accura
         known = &board->knowledge->ways[way->method][gn_way_variant(way)];
         *accuracy = (int)known->accuracy < *accuracy ? (int)known->accuracy : *accuracy;
         sum += board->gains[way->method] *
-               (known->us[GN_COST_SETUP] / board->light_count + known->us[GN_COST_INDEX] * load->indices +
+               ((is_first(ways, i) ? known->us[GN_COST_SETUP] : 0.0) + known->us[GN_COST_INDEX] * load->indices +
                 known->us[GN_COST_FRAGMENT] * load->fragments / area + known->us[GN_COST_PIXEL] * load->pixels / area +
                 known->us[GN_COST_SWITCH] * (way->method == GN_METHOD_STENCIL && way->scale == 1 ? 1.0 : 2.0)) /
                1000.0;

@@ -8,6 +8,8 @@
 
 #define FAST 0.02 /* of the screen's height in a frame: motion 1 */
 
+enum { LOOKS = 16 }; /* frames after which shadows that are dropped are looked at again */
+
 static void find_possible(adaptive *a)
 {
     gn_scene like;
@@ -93,8 +95,8 @@ static int has_moved(const gn_light *now, const gn_light *last)
            memcmp(now->towards, last->towards, sizeof now->towards) != 0;
 }
 
-/* What a part of the frame says of its lights. */
-static void note_part(adaptive *a, const uint32_t *members, uint32_t count)
+/* What a part of the frame says of its lights. shares: by how many times the casters themselves have more to draw. */
+static void note_part(adaptive *a, const uint32_t *members, uint32_t count, double shares)
 {
     const gn_plan *plan = a->stage->plan;
 
@@ -103,6 +105,7 @@ static void note_part(adaptive *a, const uint32_t *members, uint32_t count)
         const double *color = a->stage->lights[members[i]].color;
 
         gn_plan_measure(plan, i, 0, &l->load, &l->facts);
+        l->load.indices *= shares;
         l->importance = fmax(fmax(color[0], color[1]), color[2]) * l->load.pixels;
     }
 }
@@ -149,7 +152,7 @@ static int look_ahead(adaptive *a, const stage_wish *like, uint32_t light_count,
         return 0;
     for (uint32_t i = 0; i < light_count; i++)
         all[i] = i;
-    note_part(a, all, light_count);
+    note_part(a, all, light_count, 1.0);
     note_frame(a, light_count);
     return 1;
 }
@@ -179,11 +182,19 @@ static int draw_part(adaptive *a, const stage_wish *like, uint32_t first, uint8_
     wish.scale = way->is_dropped ? 1 : way->scale;
     wish.upsample = way->upsample;
     wish.full_casters = !way->proxies;
+    if (way->is_dropped && a->frames % LOOKS == 0) {
+        stage_wish look = wish;
+
+        look.casting = 1;
+        if (stage_plan(a->stage, &look, message) != 0)
+            return 0;
+        note_part(a, members, count, 1.0);
+    }
     if (stage_plan(a->stage, &wish, message) != 0 || !stage_draw_lit(a->stage, 0, message))
         return 0;
     a->plans++;
-    if (!way->is_dropped) /* a light without shadow keeps what is known of it */
-        note_part(a, members, count);
+    if (!way->is_dropped)
+        note_part(a, members, count, way->proxies ? 2.0 : 1.0); /* as the selector takes proxies to spare a half */
     return 1;
 }
 
@@ -211,6 +222,7 @@ int adaptive_draw(adaptive *a, const stage_wish *like, uint32_t light_count, cha
             return 0;
     }
     note_frame(a, light_count);
+    a->frames++;
     return 1;
 }
 
