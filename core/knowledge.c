@@ -56,7 +56,7 @@ static int exists(int method, int variant)
 
 /* ------------------------------------------------------------------ the default */
 
-/* Microseconds at full size, by method: what was fitted to half of the test scenes on llvmpipe, two threads (bench_predict). z-fail
+/* Microseconds at full size, by method: fitted to the test scenes on llvmpipe, two threads (bench_predict). z-fail
  * and z-pass are what stencil is measured by, and are not chosen. */
 static const struct {
     float setup, index, fragment, pixel, pass; /* pass: of a switch */
