@@ -67,8 +67,9 @@ static void run(bed *b, int frames, double host_ms)
 
 static gn_accuracy accuracy_of(const bed *b, uint32_t light)
 {
-    return b->ways[light].is_dropped ? GN_ACCURACY_NONE
-                                     : b->knowledge.ways[b->ways[light].method][gn_way_variant(&b->ways[light])].accuracy;
+    return b->ways[light].is_dropped
+               ? GN_ACCURACY_NONE
+               : b->knowledge.ways[b->ways[light].method][gn_way_variant(&b->ways[light])].accuracy;
 }
 
 static void never_steps_below_the_floor(void **state)
@@ -79,7 +80,8 @@ static void never_steps_below_the_floor(void **state)
     open_bed(&b, 1);
     b.asked.budget.frame_ms = 14.0;
     b.asked.budget.quality = GN_ACCURACY_FINE;
-    b.knowledge.ways[GN_METHOD_STENCIL][GN_VARIANT_FULL].us[GN_COST_FRAGMENT] *= 6.0; /* dearer than refine under load */
+    b.knowledge.ways[GN_METHOD_STENCIL][GN_VARIANT_FULL].us[GN_COST_FRAGMENT] *=
+        6.0; /* dearer than refine under load */
     start(&b);
     for (int f = 0; f < 2400; f++) {
         b.lights[0].load.fragments = f / 300 % 2 ? 400000 : 100000;
@@ -172,8 +174,8 @@ static void importance_that_changes_is_followed(void **state)
             run(&b, 2400, 5.0);
             is_followed++;
             if (accuracy_of(&b, 1) < accuracy_of(&b, 0))
-                fail_msg("at %g ms the more important light is %s, the other %s", budget, gn_accuracy_name(accuracy_of(&b, 1)),
-                         gn_accuracy_name(accuracy_of(&b, 0)));
+                fail_msg("at %g ms the more important light is %s, the other %s", budget,
+                         gn_accuracy_name(accuracy_of(&b, 1)), gn_accuracy_name(accuracy_of(&b, 0)));
             b.lights[1].importance = 0.5;
         }
         gn_selector_destroy(b.selector);
@@ -239,9 +241,39 @@ static void too_little_memory_drops_shadows(void **state)
     gn_selector_destroy(b.selector);
 }
 
+/* Deciding, learning and explaining ask for no memory; what was given comes back. */
+static void allocates_nothing(void **state)
+{
+    static char text[65536];
+    test_port counter = {0, 0, 0};
+    const gn_port port = test_port_make(&counter);
+    const gn_choice *wanted;
+    gn_selection selection;
+    gn_context *context;
+    size_t before, live;
+    bed b;
+
+    (void)state;
+    assert_int_equal(gn_context_create(&port, &context), GN_OK);
+    live = counter.live_bytes;
+    open_bed(&b, 3);
+    b.asked.budget.frame_ms = 14.0;
+    assert_int_equal(gn_selector_create(context, NULL, NULL, 0, &b.selector), GN_OK);
+    before = counter.calls;
+    gn_selector_set(b.selector, &b.asked);
+    run(&b, 300, 5.0);
+    gn_selector_explain(b.selector, &selection, &wanted);
+    assert_true(gn_explain_choice(&selection, wanted, 2, 1, text, sizeof text) > 100);
+    assert_int_equal(counter.calls, before);
+    gn_selector_destroy(b.selector);
+    assert_int_equal(counter.live_bytes, live);
+    gn_context_destroy(context);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(allocates_nothing),
         cmocka_unit_test(never_steps_below_the_floor),
         cmocka_unit_test(a_floor_that_is_raised_holds_at_once),
         cmocka_unit_test(energy_alone_is_kept),
