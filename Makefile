@@ -55,7 +55,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: all deps demo test truth bench trade certify boards headers layers asan valgrind size install install-lib format clean help check-build force
+.PHONY: all deps demo test truth bench trade selector certify boards headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -88,6 +88,14 @@ trade: $(B)/gnomon $(SCENES) ## the measured trade of docs/trade.md: the demo sc
 	@$(B)/gnomon measure $(patsubst %,build/scenes/%.gltf,courtyard colours pile_of_27 slats) -o build/trade --upsample bilinear,depth
 	@$(B)/gnomon measure $(patsubst %,build/rig/rig_%.gltf,600 1600 5000 9700) -o build/rig/trade --scales 1 --lights 1,2,4,8,16 --frames 2 --repeat 5
 	@$(B)/gnomon measure build/rig/rig_600.gltf -o build/rig/trade --scales 1 --lights 1 --frames 2 --repeat 5 --size 160x120,640x480,1024x768
+
+selector: $(B)/gnomon $(BENCHES) $(SCENES) ## the figures of docs/selector.md: control, costs, predictions, the frontier (five minutes, a quiet machine)
+	@$(B)/tests/bench/bench_control docs/control.svg > build/control.csv && mv build/control.csv tests/bench/control.csv
+	@$(B)/tests/bench/bench_select
+	@$(B)/gnomon calibrate -o build/knowledge.csv $(if $(wildcard build/trade/trade.csv),--trade build/trade/trade.csv)
+	@$(B)/tests/bench/bench_predict build/knowledge.csv $$(awk '$$3 != "extreme" {print $$1}' build/scenes/scenes.txt) > build/predict.csv
+	@$(B)/tests/bench/bench_frontier build/knowledge.csv $$(awk '$$3 != "extreme" {print $$1}' build/scenes/scenes.txt) > build/frontier.csv
+	@grep -h '^#' build/predict.csv build/frontier.csv
 
 certify: $(B)/gnomon $(SCENES) ## no exact method is wrong along a path round each test scene
 	@$(B)/gnomon measure --certify $$(awk '$$3 != "extreme" {print "build/scenes/" $$1 ".gltf"}' build/scenes/scenes.txt)
