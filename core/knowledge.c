@@ -65,9 +65,9 @@ static const struct {
 } defaults[GN_METHOD_TOTAL] = {
     [GN_METHOD_STENCIL] = {350, 0.03f, 0.0029f, 0.0f, 20, 8, GN_ACCURACY_EXACT},
     [GN_METHOD_REFINE] = {0, 0.19f, 0.0028f, 0.0175f, 200, 8, GN_ACCURACY_FINE},
-    [GN_METHOD_COUNT] = {600, 0.08f, 0.0076f, 0.004f, 170, 12, GN_ACCURACY_EXACT},
+    [GN_METHOD_COUNT] = {660, 0.09f, 0.0084f, 0.0044f, 190, 12, GN_ACCURACY_EXACT},
     [GN_METHOD_SIGNED] = {400, 0.1f, 0.0078f, 0.02f, 80, 12, GN_ACCURACY_EXACT},
-    [GN_METHOD_ALPHA] = {300, 0.1f, 0.0106f, 0.01f, 90, 12, GN_ACCURACY_FAIR},
+    [GN_METHOD_ALPHA] = {240, 0.08f, 0.0085f, 0.008f, 70, 12, GN_ACCURACY_FAIR},
     [GN_METHOD_SCREEN] = {900, 0.08f, 0.015f, 0.002f, 150, 12, GN_ACCURACY_FAIR},
 };
 
@@ -83,6 +83,8 @@ static void make_small(struct gn_known_way *k, int method, uint32_t scale, int i
     k->us[GN_COST_FRAGMENT] *= scale == 2 ? 3.0 : 6.5;
     k->us[GN_COST_PIXEL] = 0.0;
     k->us[GN_COST_SWITCH] = is_depth ? 170.0 : 80.0;
+    for (int c = 0; c < GN_COST_COUNT && is_depth && scale == 2; c++)
+        k->us[c] *= 1.25;
     k->bytes[GN_COST_PIXEL] += 4.0 * (is_depth ? 4.0 : 1.0) * scale * scale;
     k->accuracy = scale == 2 ? GN_ACCURACY_FAIR : GN_ACCURACY_ROUGH;
 }

@@ -39,8 +39,7 @@ static const struct sample {
 enum { SAMPLES = sizeof samples / sizeof samples[0], DRAWS = 2, LIGHTS = 2 };
 
 #define SPREAD 0.05 /* of ways' multiples about the board's, as is likely */
-#define DEARER                                                                                                         \
-    1.2 /* the sample is than test scenes with as much to draw, by the default's coefficients (bench_predict) */
+#define DEARER 1.15 /* the sample is than test scenes with as much to draw (bench_predict) */
 #define ENOUGH 1700 /* ms: no further way is observed; what was not follows what was */
 
 typedef struct observed {
