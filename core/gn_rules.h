@@ -2,10 +2,10 @@
  *
  * The text is Fuzzy Control Language (IEC 61131-7), of which this is taken: one FUNCTION_BLOCK; VAR_INPUT and VAR_OUTPUT of
  * REAL; FUZZIFY and DEFUZZIFY with RANGE and TERMs of points, TERM x := (0, 1) (2, 0); that are joined by lines and level
- * beyond; METHOD COG, or COGS where terms are single numbers,
- * each weighed by the sum of the rules that say it; DEFAULT a number or NC, which leaves an output as it
- * is; RULEBLOCKs with AND : MIN, OR : MAX, ACT : MIN, ACCU : MAX; rules of IS, NOT, AND, OR, parentheses, WITH a weight;
- * comments (* *), // and #. Keywords in any case, names in theirs. Anything else is refused with its line and column.
+ * beyond; METHOD COG, or COGS where terms are single numbers, each weighed by the sum of the rules that say it; DEFAULT a
+ * number or NC, which leaves an output as it is; RULEBLOCKs with AND : MIN, OR : MAX, ACT : MIN, ACCU : MAX; rules of IS,
+ * NOT, AND, OR, parentheses, WITH a weight; comments (* *), // and #. Keywords in any case, names in theirs. Anything else
+ * is refused with its line and column.
  *
  * (Rautenbach 2008, section 5.3: rules, and-by-least, centre of gravity.) */
 #ifndef GN_RULES_H
