@@ -110,6 +110,15 @@ static double area_of_triangles(const gn_plan *plan, const gn_record *r, const w
     return area;
 }
 
+/* A sun's far vertices are all at one point: its sides are triangles, if they do not end. */
+static uint32_t triangles_of_a_side(const gn_record *r)
+{
+    for (int i = 0; i < 12; i++)
+        if (r->far_matrix[i] != 0.0f)
+            return 2;
+    return 1;
+}
+
 /* Steps through pieces of one kind, of all records of a light. */
 typedef struct sampler {
     double step, next; /* pieces from one sample to the next; how many to go */
@@ -180,7 +189,7 @@ int gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_lo
 
         if (r->light != light)
             continue;
-        sides += r->side_count / 6;
+        sides += r->side_count / (3 * triangles_of_a_side(r));
         caps += (r->light_cap_count + r->dark_cap_count + r->near_cap_count + r->turned_cap_count) / 3;
         load->indices +=
             r->light_cap_count + r->side_count + r->dark_cap_count + r->near_cap_count + r->turned_cap_count;
@@ -196,7 +205,7 @@ int gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_lo
 
         if (r->light != light)
             continue;
-        sample(&of_sides, plan, r, r->first_side, r->side_count, 2);
+        sample(&of_sides, plan, r, r->first_side, r->side_count, triangles_of_a_side(r));
         sample(&of_caps, plan, r, r->first_index, r->light_cap_count, 1);
         sample(&of_caps, plan, r, r->first_dark_cap, r->dark_cap_count + r->near_cap_count, 1);
         sample(&of_caps, plan, r, r->first_turned_cap, r->turned_cap_count, 1);
