@@ -1,11 +1,13 @@
 # gnomon. `make help` lists the targets.
 #
 # VARIANT: release debug asan size. CROSS: a board's compiler prefix (arm-linux-gnueabihf-).
+# HOST_CC: what compiles for where the build runs, also when it is for a board.
 # V=1 shows whole commands. CC, CFLAGS, CPPFLAGS, LDFLAGS, AR, PKG_CONFIG, PREFIX, DESTDIR mean what they mean everywhere.
 VARIANT    ?= release
 CROSS      ?=
 PREFIX     ?= /usr/local
 PKG_CONFIG ?= pkg-config
+HOST_CC    ?= cc
 PYTHON     ?= python3
 
 ifeq ($(origin CC),default)
@@ -45,6 +47,7 @@ LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c gles/*/*.c)
 TOOLS   := $(filter-out $(B)/tools/main.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
 SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/* rules/default.fcl))
+COMPILER := rules/compile.c core/rules.c core/rules_about.c core/scan.c core/slices.c core/fuzzy.c core/context.c port/port_libc.c $(wildcard core/*.h)
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
 BENCHES := $(patsubst %.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
 PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core/gn_matrix.h core/gn_rules.h core/gn_select.h gles/gnomon_gles.h gles/gn_glsl.h gles/gn_gl.h gles/gl_funcs.h
@@ -171,10 +174,14 @@ $(B)/%.o: %.c $(B)/flags | $(SHADERS)
 	@mkdir -p $(@D)
 	@echo "  cc    $<"
 	$(Q)$(CC) $(FLAGS) -c $< -o $@
-# Rules become an array, since strings of C99 end at 4,095 bytes; lines stay too.
-$(B)/rules/%.fcl.h: rules/%.fcl
+# Rules become tables: read where the build runs, by the reader that the library has for others.
+build/host/compile_rules: $(COMPILER)
 	@mkdir -p $(@D)
-	@{ echo 'static const char gni_$*_fcl[] = {'; sed 's|^[[:space:]]*||; s|[[:space:]]*//.*||' $< | od -An -v -tu1 | sed 's/ *\([0-9][0-9]*\)/\1,/g'; echo '0};'; } > $@
+	@echo "  host  $@"
+	$(Q)$(HOST_CC) -std=c99 -O1 -Iport -Icore $(filter %.c,$^) -lm -o $@
+$(B)/rules/%.fcl.h: rules/%.fcl build/host/compile_rules
+	@mkdir -p $(@D)
+	@build/host/compile_rules < $< > $@.part && mv $@.part $@
 # A shader becomes a C string: comments go, lines stay, so that the driver's line numbers are the file's.
 $(B)/%.h: %
 	@mkdir -p $(@D)
@@ -186,7 +193,7 @@ $(SCENES): $(wildcard tests/scenes/*.py)
 
 # `make deps demo` on a bare machine: nothing is built before what builds it is there.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table) headers layers check-build: | deps
+$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) build/host/compile_rules $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table) headers layers check-build: | deps
 endif
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -18,9 +18,12 @@ extern "C" {
 
 typedef struct gn_rules gn_rules;
 
-/* Reads the text, which need not stay [length: of it]. text NULL: the library's own, rules/default.fcl. Returns GN_OK;
- * GN_E_ARG with the line and column of what is wrong; GN_E_MEMORY. *rules is NULL unless GN_OK. */
+/* Reads the text, which need not stay [length: of it]. Returns GN_OK; GN_E_ARG with the line and column of what is wrong;
+ * GN_E_MEMORY. *rules is NULL unless GN_OK. */
 gn_result gn_rules_create(gn_context *context, const char *text, size_t length, gn_rules **rules);
+/* The library's own, rules/default.fcl, which were read when it was built: a program that calls this alone has no reader in
+ * it. Returns GN_OK; GN_E_MEMORY. */
+gn_result gn_rules_default(gn_context *context, gn_rules **rules);
 void gn_rules_destroy(gn_rules *rules);
 
 /* inputs: [gn_rules_input_count()] finite. outputs: [gn_rules_output_count()]; one that no rule reaches becomes its DEFAULT, or NAN

@@ -119,6 +119,7 @@ void gn_knowledge_default(gn_knowledge *out);
  * us_index, us_fragment, us_pixel, us_switch, bytes_setup, ... bytes_switch. Ways without a row are not known. Returns GN_OK;
  * GN_E_ARG with line and column; *out is untouched unless GN_OK. */
 gn_result gn_knowledge_read(gn_context *context, const char *text, size_t length, gn_knowledge *out);
+
 /* ---- Selection ---- */
 
 /* What a light's mask costs by a way. Energy is an estimate: traffic times 100 mW for a gigabyte a second (Arm). */
@@ -198,8 +199,9 @@ size_t gn_explain_choice(const gn_selection *selection, const gn_choice *choices
 
 typedef struct gn_selector gn_selector;
 
-/* Copies what it is given; rules and knowledge NULL: the library's own. */
-gn_result gn_selector_create(gn_context *context, const gn_knowledge *knowledge, const char *rules, size_t rules_length,
+/* knowledge: copied; rules: used until the selector is destroyed, of facts alone; NULL: the library's own. Returns GN_OK;
+ * GN_E_ARG for rules that ask for what is no fact; GN_E_MEMORY. */
+gn_result gn_selector_create(gn_context *context, const gn_knowledge *knowledge, gn_rules *rules,
                              gn_selector **selector);
 void gn_selector_destroy(gn_selector *selector);
 

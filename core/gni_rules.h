@@ -1,4 +1,5 @@
-/* gni_rules.h - rules as they are kept: what the reader (rules.c) makes and the engine (fuzzy.c) evaluates. */
+/* gni_rules.h - rules as they are kept: what the reader (rules.c) makes, at run time of a host's text and at build time of
+ * rules/default.fcl, and the engine (fuzzy.c) evaluates. */
 #ifndef GNI_RULES_H
 #define GNI_RULES_H
 #include "gn_rules.h"
@@ -12,15 +13,14 @@ enum {
 
 /* Points of a term are [first_point, first_point + point_count): x never falls. A singleton has one. */
 typedef struct gni_term {
-    const char *name;
+    uint16_t name; /* of a term or variable: where it starts in the names */
     uint16_t first_point, point_count;
 } gni_term;
 
 typedef struct gni_variable {
-    const char *name;
     double low, high; /* RANGE; INFINITY, -INFINITY until it is known */
     double otherwise; /* DEFAULT */
-    uint16_t first_term, term_count;
+    uint16_t name, first_term, term_count;
     uint16_t first_slice, slice_count; /* of an output by COG */
     uint8_t keeps;                     /* DEFAULT is NC */
     uint8_t is_by_singletons;          /* COGS */
@@ -43,24 +43,24 @@ typedef struct gni_slice {
     uint32_t first_end;
 } gni_slice;
 
-/* All in one block, but for the slices. */
+/* What is constant of them lies in the library, or with them in their block of memory. */
 struct gn_rules {
     gn_context *context;
-    char *text, *names;
-    gni_variable *inputs, *outputs;
-    gni_term *terms;
-    double (*points)[2];
-    gni_rule *rules;
-    uint16_t *code, *thens;
-    gni_slice *slices;
-    double *slice_ends;
-    double *places;  /* of one output while slices are made */
+    void *own; /* slices that were asked for */
+    const char *text, *names;
+    const gni_variable *inputs, *outputs;
+    const gni_term *terms;
+    const double (*points)[2];
+    const gni_rule *rules;
+    const uint16_t *code, *thens;
+    const gni_slice *slices;
+    const double *slice_ends;
     double *degrees; /* [term_count] memberships of inputs' terms, activations of outputs' */
     uint32_t input_count, output_count, term_count, point_count, rule_count, code_count, then_count, slice_count;
 };
 
 /* fuzzy.c: how much of a term a value is. */
 double gni_membership(const gn_rules *r, const gni_term *term, double x);
-/* fuzzy.c: slices of outputs by COG. */
-gn_result gni_prepare_rules(gn_rules *rules);
+/* slices.c: of the outputs by COG, which are the rules' own; places: [points of one output + 2] to work with. */
+gn_result gni_slice_outputs(gn_rules *rules, gni_variable *outputs, double *places);
 #endif

@@ -29,6 +29,9 @@ typedef struct gni_candidate {
         share; /* of the budget that is left for shadows: the greater of time's and energy's; 0 where there is none */
 } gni_candidate;
 
+/* knowledge.c: whether a method can be so; refine has small masks of its own, that are not upsampled. */
+int gni_way_exists(int method, int variant);
+
 /* select.c: what a budget leaves for shadows; INFINITY: any. */
 void gni_allowance(const gn_selection *s, double *ms, double *mj);
 /* Way number n of a light. */

@@ -5,14 +5,20 @@
 #include "gni_rules.h"
 #include "scan.h"
 
-#include "default.fcl.h"
-
 #include <math.h>
 #include <string.h>
 
+/* What is being read: what the rules have as constants. */
 typedef struct reader {
     gni_scan scan;
     gn_rules *r;
+    char *text, *names;
+    gni_variable *inputs, *outputs;
+    gni_term *terms;
+    double (*points)[2];
+    gni_rule *rules;
+    uint16_t *code, *thens;
+    double *places;
     size_t name_size;
     int nested; /* parentheses around the place at hand */
 } reader;
@@ -24,25 +30,33 @@ static int is_ok(const reader *p)
 
 /* ------------------------------------------------------------------ names */
 
-static const char *copy_name(reader *p)
+static const char *name_of(const reader *p, uint16_t name)
 {
-    char *name = p->r->names + p->name_size;
+    return p->names + name;
+}
+
+static uint16_t copy_name(reader *p)
+{
+    char *name = p->names + p->name_size;
+    const uint16_t start = (uint16_t)p->name_size;
 
     if (p->scan.token.kind != GNI_WORD) {
         gni_scan_fail(&p->scan, p->scan.token.at, "a name is missing ('%.*s')", (int)p->scan.token.length,
                       p->scan.token.at);
-        return "";
+        return 0;
     }
     memcpy(name, p->scan.token.at, p->scan.token.length);
     name[p->scan.token.length] = '\0';
     p->name_size += p->scan.token.length + 1;
     gni_scan_next(&p->scan);
-    return name;
+    return start;
 }
 
 /* Whether the token is exactly that name. */
-static int is_name(const reader *p, const char *name)
+static int is_name(const reader *p, uint16_t at)
 {
+    const char *name = name_of(p, at);
+
     return p->scan.token.kind == GNI_WORD && strlen(name) == p->scan.token.length &&
            memcmp(name, p->scan.token.at, p->scan.token.length) == 0;
 }
@@ -70,12 +84,12 @@ static gni_variable *expect_variable(reader *p, gni_variable *variables, uint32_
 static uint16_t expect_term(reader *p, const gni_variable *v)
 {
     for (uint32_t t = v->first_term; t < (uint32_t)v->first_term + v->term_count; t++)
-        if (is_name(p, p->r->terms[t].name)) {
+        if (is_name(p, p->terms[t].name)) {
             gni_scan_next(&p->scan);
             return (uint16_t)t;
         }
-    gni_scan_fail(&p->scan, p->scan.token.at, "%s has no term of that name (%.*s)", v->name, (int)p->scan.token.length,
-                  p->scan.token.at);
+    gni_scan_fail(&p->scan, p->scan.token.at, "%s has no term of that name (%.*s)", name_of(p, v->name),
+                  (int)p->scan.token.length, p->scan.token.at);
     return 0;
 }
 
@@ -86,7 +100,7 @@ static void read_variables(reader *p, gni_variable *variables, uint32_t *count)
     while (is_ok(p) && !gni_scan_take(&p->scan, "END_VAR")) {
         gni_variable *v = &variables[*count];
 
-        if (find(p, p->r->inputs, p->r->input_count) || find(p, p->r->outputs, p->r->output_count))
+        if (find(p, p->inputs, p->r->input_count) || find(p, p->outputs, p->r->output_count))
             gni_scan_fail(&p->scan, p->scan.token.at, "there is a variable of that name already (%.*s)",
                           (int)p->scan.token.length, p->scan.token.at);
         memset(v, 0, sizeof *v);
@@ -109,7 +123,7 @@ static void read_range(reader *p, gni_variable *v)
     v->high = gni_scan_number(&p->scan);
     gni_scan_expect(&p->scan, ") ;");
     if (!(v->low < v->high))
-        gni_scan_fail(&p->scan, at, "the range of %s is empty (%g .. %g)", v->name, v->low, v->high);
+        gni_scan_fail(&p->scan, at, "the range of %s is empty (%g .. %g)", name_of(p, v->name), v->low, v->high);
 }
 
 static void read_points(reader *p, gni_term *term)
@@ -118,7 +132,7 @@ static void read_points(reader *p, gni_term *term)
 
     while (is_ok(p) && gni_scan_is(&p->scan, "(")) {
         const char *at = p->scan.token.at;
-        double *point = r->points[r->point_count];
+        double *point = p->points[r->point_count];
 
         gni_scan_next(&p->scan);
         point[0] = gni_scan_number(&p->scan);
@@ -126,28 +140,29 @@ static void read_points(reader *p, gni_term *term)
         point[1] = gni_scan_number(&p->scan);
         gni_scan_expect(&p->scan, ")");
         if (!(point[1] >= 0.0 && point[1] <= 1.0))
-            gni_scan_fail(&p->scan, at, "term %s: a membership is from 0 to 1 (%g)", term->name, point[1]);
+            gni_scan_fail(&p->scan, at, "term %s: a membership is from 0 to 1 (%g)", name_of(p, term->name), point[1]);
         if (term->point_count > 0 && point[0] < point[-2])
-            gni_scan_fail(&p->scan, at, "term %s: its points go back from %g to %g", term->name, point[-2], point[0]);
+            gni_scan_fail(&p->scan, at, "term %s: its points go back from %g to %g", name_of(p, term->name), point[-2],
+                          point[0]);
         term->point_count++;
         r->point_count++;
     }
     if (term->point_count == 1)
         gni_scan_fail(&p->scan, p->scan.token.at, "term %s: one point is none: a number alone is a singleton",
-                      term->name);
+                      name_of(p, term->name));
 }
 
 static void read_term(reader *p, gni_variable *v)
 {
     gn_rules *r = p->r;
-    gni_term *term = &r->terms[r->term_count];
+    gni_term *term = &p->terms[r->term_count];
 
     for (uint32_t t = v->first_term; t < (uint32_t)v->first_term + v->term_count; t++)
-        if (is_name(p, r->terms[t].name))
-            gni_scan_fail(&p->scan, p->scan.token.at, "%s has a term of that name already (%s)", v->name,
-                          r->terms[t].name);
+        if (is_name(p, p->terms[t].name))
+            gni_scan_fail(&p->scan, p->scan.token.at, "%s has a term of that name already (%s)", name_of(p, v->name),
+                          name_of(p, p->terms[t].name));
     if (v->term_count == GNI_MOST_TERMS)
-        gni_scan_fail(&p->scan, p->scan.token.at, "%s has more than %d terms", v->name, GNI_MOST_TERMS);
+        gni_scan_fail(&p->scan, p->scan.token.at, "%s has more than %d terms", name_of(p, v->name), GNI_MOST_TERMS);
     term->name = copy_name(p);
     term->first_point = (uint16_t)r->point_count;
     term->point_count = 0;
@@ -155,8 +170,8 @@ static void read_term(reader *p, gni_variable *v)
     if (gni_scan_is(&p->scan, "(")) {
         read_points(p, term);
     } else {
-        r->points[r->point_count][0] = gni_scan_number(&p->scan);
-        r->points[r->point_count++][1] = 1.0;
+        p->points[r->point_count][0] = gni_scan_number(&p->scan);
+        p->points[r->point_count++][1] = 1.0;
         term->point_count = 1;
     }
     gni_scan_expect(&p->scan, ";");
@@ -169,7 +184,7 @@ static void read_method(reader *p, gni_variable *v)
     gni_scan_expect(&p->scan, ":");
     v->is_by_singletons = (uint8_t)gni_scan_take(&p->scan, "COGS");
     if (!v->is_by_singletons && !gni_scan_take(&p->scan, "COG"))
-        gni_scan_fail(&p->scan, p->scan.token.at, "%s: METHOD is COG or COGS here (%.*s)", v->name,
+        gni_scan_fail(&p->scan, p->scan.token.at, "%s: METHOD is COG or COGS here (%.*s)", name_of(p, v->name),
                       (int)p->scan.token.length, p->scan.token.at);
     gni_scan_expect(&p->scan, ";");
 }
@@ -186,20 +201,19 @@ static void read_default(reader *p, gni_variable *v)
 /* A range that is not given is from the first point to the last. An output's terms are of the kind of its METHOD. */
 static void check_terms(reader *p, gni_variable *v, const char *at, int is_output)
 {
-    const gn_rules *r = p->r;
     const int is_ranged = v->low <= v->high;
 
     if (v->term_count == 0)
-        gni_scan_fail(&p->scan, at, "%s has no term", v->name);
+        gni_scan_fail(&p->scan, at, "%s has no term", name_of(p, v->name));
     for (uint32_t t = v->first_term; t < (uint32_t)v->first_term + v->term_count; t++) {
-        const gni_term *term = &r->terms[t];
+        const gni_term *term = &p->terms[t];
 
         if (is_output && (term->point_count == 1) != v->is_by_singletons)
-            gni_scan_fail(&p->scan, at, "%s: METHOD %s", v->name,
+            gni_scan_fail(&p->scan, at, "%s: METHOD %s", name_of(p, v->name),
                           v->is_by_singletons ? "COGS takes terms of one number each" : "COG takes terms of points");
         for (uint32_t i = term->first_point; !is_ranged && i < (uint32_t)term->first_point + term->point_count; i++) {
-            v->low = fmin(v->low, r->points[i][0]);
-            v->high = fmax(v->high, r->points[i][0]);
+            v->low = fmin(v->low, p->points[i][0]);
+            v->high = fmax(v->high, p->points[i][0]);
         }
     }
 }
@@ -208,13 +222,13 @@ static void read_block_of_variable(reader *p, int is_output)
 {
     gn_rules *r = p->r;
     const char *at = p->scan.token.at, *const end = is_output ? "END_DEFUZZIFY" : "END_FUZZIFY";
-    gni_variable *v = is_output ? expect_variable(p, r->outputs, r->output_count, "output")
-                                : expect_variable(p, r->inputs, r->input_count, "input");
+    gni_variable *v = is_output ? expect_variable(p, p->outputs, r->output_count, "output")
+                                : expect_variable(p, p->inputs, r->input_count, "input");
 
     if (!v)
         return;
     if (v->term_count)
-        gni_scan_fail(&p->scan, at, "%s has terms already", v->name);
+        gni_scan_fail(&p->scan, at, "%s has terms already", name_of(p, v->name));
     v->first_term = (uint16_t)r->term_count;
     while (is_ok(p) && !gni_scan_take(&p->scan, end)) {
         if (gni_scan_take(&p->scan, "RANGE"))
@@ -238,7 +252,7 @@ static void read_block_of_variable(reader *p, int is_output)
 
 static void put_code(reader *p, gni_rule *rule, uint16_t code)
 {
-    p->r->code[p->r->code_count++] = code;
+    p->code[p->r->code_count++] = code;
     rule->code_count++;
 }
 
@@ -264,7 +278,7 @@ static void read_proposition(reader *p, gni_rule *rule)
         }
         p->nested--;
     } else {
-        const gni_variable *v = expect_variable(p, p->r->inputs, p->r->input_count, "input");
+        const gni_variable *v = expect_variable(p, p->inputs, p->r->input_count, "input");
         int is_not;
 
         gni_scan_expect(&p->scan, "IS");
@@ -301,12 +315,12 @@ static void read_thens(reader *p, gni_rule *rule)
     gn_rules *r = p->r;
 
     do {
-        const gni_variable *v = expect_variable(p, r->outputs, r->output_count, "output");
+        const gni_variable *v = expect_variable(p, p->outputs, r->output_count, "output");
 
         gni_scan_expect(&p->scan, "IS");
         if (!v || !is_ok(p))
             return;
-        r->thens[r->then_count++] = expect_term(p, v);
+        p->thens[r->then_count++] = expect_term(p, v);
         rule->then_count++;
     } while (gni_scan_take(&p->scan, "AND") || gni_scan_take(&p->scan, ","));
 }
@@ -315,7 +329,7 @@ static void read_thens(reader *p, gni_rule *rule)
 static void read_rule(reader *p)
 {
     gn_rules *r = p->r;
-    gni_rule *rule = &r->rules[r->rule_count];
+    gni_rule *rule = &p->rules[r->rule_count];
     const char *at;
 
     memset(rule, 0, sizeof *rule);
@@ -375,9 +389,9 @@ static void read_text(reader *p)
         gni_scan_next(&p->scan);
     while (is_ok(p) && !gni_scan_take(&p->scan, "END_FUNCTION_BLOCK")) {
         if (gni_scan_take(&p->scan, "VAR_INPUT"))
-            read_variables(p, r->inputs, &r->input_count);
+            read_variables(p, p->inputs, &r->input_count);
         else if (gni_scan_take(&p->scan, "VAR_OUTPUT"))
-            read_variables(p, r->outputs, &r->output_count);
+            read_variables(p, p->outputs, &r->output_count);
         else if (gni_scan_take(&p->scan, "FUZZIFY"))
             read_block_of_variable(p, 0);
         else if (gni_scan_take(&p->scan, "DEFUZZIFY"))
@@ -389,11 +403,11 @@ static void read_text(reader *p)
     }
     gni_scan_expect(&p->scan, "");
     for (uint32_t i = 0; is_ok(p) && i < r->input_count; i++)
-        if (r->inputs[i].term_count == 0)
-            gni_scan_fail(&p->scan, p->scan.end, "input %s has no FUZZIFY", r->inputs[i].name);
+        if (p->inputs[i].term_count == 0)
+            gni_scan_fail(&p->scan, p->scan.end, "input %s has no FUZZIFY", name_of(p, p->inputs[i].name));
     for (uint32_t i = 0; is_ok(p) && i < r->output_count; i++)
-        if (r->outputs[i].term_count == 0)
-            gni_scan_fail(&p->scan, p->scan.end, "output %s has no DEFUZZIFY", r->outputs[i].name);
+        if (p->outputs[i].term_count == 0)
+            gni_scan_fail(&p->scan, p->scan.end, "output %s has no DEFUZZIFY", name_of(p, p->outputs[i].name));
 }
 
 /* ------------------------------------------------------------------ memory */
@@ -414,79 +428,74 @@ static void count(counts *c, const char *text, size_t length)
     }
 }
 
-static void *cut(gn_rules *r, size_t *used, size_t number, size_t size)
+static void *cut(void *block, size_t *used, size_t number, size_t size)
 {
-    void *at = r ? (unsigned char *)r + *used : NULL;
+    void *at = block ? (unsigned char *)block + *used : NULL;
 
     *used += (number * size + 7) / 8 * 8;
     return at;
 }
 
-/* The arrays behind the rules themselves; rules NULL: only how much they are. */
-static size_t lay_out(gn_rules *rules, const counts *c)
+/* The rules, and the arrays behind them, in a block; block NULL: only how much they are. */
+static size_t lay_out(reader *p, void *block, const counts *c)
 {
     const size_t points = c->of['='] + c->of['('] + 1;
     size_t used = 0;
-    gn_rules r;
+    double *degrees;
 
-    cut(rules, &used, 1, sizeof r);
-    memset(&r, 0, sizeof r);
-    r.text = cut(rules, &used, c->length + 1, 1);
-    r.names = cut(rules, &used, c->length + 2, 1);
-    r.inputs = cut(rules, &used, c->of[':'] + 1, sizeof *r.inputs);
-    r.outputs = cut(rules, &used, c->of[':'] + 1, sizeof *r.outputs);
-    r.terms = cut(rules, &used, c->of['='] + 1, sizeof *r.terms);
-    r.points = cut(rules, &used, points, sizeof *r.points);
-    r.rules = cut(rules, &used, c->of[';'] + 2, sizeof *r.rules);
-    r.code = cut(rules, &used, c->words, sizeof *r.code);
-    r.thens = cut(rules, &used, c->words, sizeof *r.thens);
-    r.degrees = cut(rules, &used, c->of['='] + 1, sizeof *r.degrees);
-    r.places = cut(rules, &used, points + 2, sizeof *r.places);
-    if (rules)
-        *rules = r;
+    memset(p, 0, sizeof *p);
+    p->r = cut(block, &used, 1, sizeof *p->r);
+    p->text = cut(block, &used, c->length + 1, 1);
+    p->names = cut(block, &used, c->length + 2, 1);
+    p->inputs = cut(block, &used, c->of[':'] + 1, sizeof *p->inputs);
+    p->outputs = cut(block, &used, c->of[':'] + 1, sizeof *p->outputs);
+    p->terms = cut(block, &used, c->of['='] + 1, sizeof *p->terms);
+    p->points = cut(block, &used, points, sizeof *p->points);
+    p->rules = cut(block, &used, c->of[';'] + 2, sizeof *p->rules);
+    p->code = cut(block, &used, c->words, sizeof *p->code);
+    p->thens = cut(block, &used, c->words, sizeof *p->thens);
+    p->places = cut(block, &used, points + 2, sizeof *p->places);
+    degrees = cut(block, &used, c->of['='] + 1, sizeof *degrees);
+    if (block)
+        *p->r = (gn_rules){.text = p->text,
+                           .names = p->names,
+                           .inputs = p->inputs,
+                           .outputs = p->outputs,
+                           .terms = p->terms,
+                           .points = (const double(*)[2])p->points,
+                           .rules = p->rules,
+                           .code = p->code,
+                           .thens = p->thens,
+                           .degrees = degrees};
     return used;
 }
 
 gn_result gn_rules_create(gn_context *context, const char *text, size_t length, gn_rules **rules)
 {
-    gn_rules *r;
+    void *block;
     counts c;
     reader p;
 
-    if (!context || !rules)
+    if (!context || !text || !rules)
         return gn_fail(context, GN_E_ARG, "gn_rules_create: NULL argument");
     *rules = NULL;
-    if (!text) {
-        text = gni_default_fcl;
-        length = sizeof gni_default_fcl - 1;
-    }
     if (length > 65535)
         return gn_fail(context, GN_E_ARG, "rules: a text of at most 65535 bytes (%lu)", (unsigned long)length);
     count(&c, text, length);
-    r = gni_alloc(context, lay_out(NULL, &c), 1);
-    if (!r)
+    block = gni_alloc(context, lay_out(&p, NULL, &c), 1);
+    if (!block)
         return gn_fail(context, GN_E_MEMORY, "rules: no memory for a text of %lu bytes", (unsigned long)length);
-    lay_out(r, &c);
-    r->context = context;
-    memcpy(r->text, text, length);
-    r->text[length] = '\0';
-    memset(&p, 0, sizeof p);
-    p.r = r;
-    gni_scan_start(&p.scan, context, "rules", r->text, length);
+    lay_out(&p, block, &c);
+    p.r->context = context;
+    memcpy(p.text, text, length);
+    p.text[length] = '\0';
+    gni_scan_start(&p.scan, context, "rules", p.text, length);
     read_text(&p);
     if (is_ok(&p))
-        p.scan.result = gni_prepare_rules(r);
+        p.scan.result = gni_slice_outputs(p.r, p.outputs, p.places);
     if (is_ok(&p))
-        *rules = r;
+        *rules = p.r;
     else
-        gn_rules_destroy(r);
+        gn_rules_destroy(p.r);
     return p.scan.result;
-}
-
-void gn_rules_destroy(gn_rules *r)
-{
-    if (!r)
-        return;
-    gni_free(r->context, r->slices);
-    gni_free(r->context, r);
 }

@@ -20,30 +20,30 @@ uint32_t gn_rules_count(const gn_rules *rules)
 
 const char *gn_rules_input(const gn_rules *rules, uint32_t input)
 {
-    return input < rules->input_count ? rules->inputs[input].name : NULL;
+    return input < rules->input_count ? rules->names + rules->inputs[input].name : NULL;
 }
 
 const char *gn_rules_output(const gn_rules *rules, uint32_t output)
 {
-    return output < rules->output_count ? rules->outputs[output].name : NULL;
+    return output < rules->output_count ? rules->names + rules->outputs[output].name : NULL;
 }
 
-static uint32_t find(const gni_variable *variables, uint32_t count, const char *name)
+static uint32_t find(const gn_rules *rules, const gni_variable *variables, uint32_t count, const char *name)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (strcmp(variables[i].name, name) == 0)
+        if (strcmp(rules->names + variables[i].name, name) == 0)
             return i;
     return UINT32_MAX;
 }
 
 uint32_t gn_rules_find_input(const gn_rules *rules, const char *name)
 {
-    return find(rules->inputs, rules->input_count, name);
+    return find(rules, rules->inputs, rules->input_count, name);
 }
 
 uint32_t gn_rules_find_output(const gn_rules *rules, const char *name)
 {
-    return find(rules->outputs, rules->output_count, name);
+    return find(rules, rules->outputs, rules->output_count, name);
 }
 
 int gn_rules_range(const gn_rules *rules, uint32_t input, double range[2])
@@ -62,7 +62,9 @@ uint32_t gn_rules_term_count(const gn_rules *rules, uint32_t input)
 
 const char *gn_rules_term(const gn_rules *rules, uint32_t input, uint32_t term)
 {
-    return term < gn_rules_term_count(rules, input) ? rules->terms[rules->inputs[input].first_term + term].name : NULL;
+    return term < gn_rules_term_count(rules, input)
+               ? rules->names + rules->terms[rules->inputs[input].first_term + term].name
+               : NULL;
 }
 
 double gn_rules_membership(const gn_rules *rules, uint32_t input, uint32_t term, double value)
@@ -107,4 +109,12 @@ size_t gn_rules_sentence(const gn_rules *rules, uint32_t rule, char *text, size_
     if (capacity)
         text[length < capacity ? length : capacity - 1] = '\0';
     return length;
+}
+
+void gn_rules_destroy(gn_rules *r)
+{
+    if (!r)
+        return;
+    gni_free(r->context, r->own);
+    gni_free(r->context, r);
 }

@@ -24,7 +24,7 @@
 struct gn_selector {
     gn_context *context;
     gn_knowledge knowledge;
-    gn_rules *rules;
+    gn_rules *rules, *own_rules;
     gn_selection selection; /* as set, with rules and knowledge of its own */
     gni_learner learner;
     gn_light_state lights[GN_MOST_SELECTED];
@@ -39,7 +39,7 @@ struct gn_selector {
     int has_changed;                   /* this frame is the first of a change: it makes images and programs */
 };
 
-gn_result gn_selector_create(gn_context *context, const gn_knowledge *knowledge, const char *rules, size_t rules_length,
+gn_result gn_selector_create(gn_context *context, const gn_knowledge *knowledge, gn_rules *rules,
                              gn_selector **selector)
 {
     gn_selector *s;
@@ -53,9 +53,7 @@ gn_result gn_selector_create(gn_context *context, const gn_knowledge *knowledge,
         return gn_fail(context, GN_E_MEMORY, "selector: no memory");
     memset(s, 0, sizeof *s);
     s->context = context;
-    result = gn_rules_create(context, rules, rules_length, &s->rules);
-    if (result == GN_OK)
-        result = gni_check_rules(context, s->rules);
+    result = rules ? gni_check_rules(context, rules) : gn_rules_default(context, &s->own_rules);
     if (result != GN_OK) {
         gn_selector_destroy(s);
         return result;
@@ -64,6 +62,7 @@ gn_result gn_selector_create(gn_context *context, const gn_knowledge *knowledge,
         s->knowledge = *knowledge;
     else
         gn_knowledge_default(&s->knowledge);
+    s->rules = rules ? rules : s->own_rules;
     gni_learn_start(&s->learner);
     s->wait_up = UP_FRAMES;
     s->since_up = FAILS;
@@ -75,7 +74,7 @@ void gn_selector_destroy(gn_selector *s)
 {
     if (!s)
         return;
-    gn_rules_destroy(s->rules);
+    gn_rules_destroy(s->own_rules);
     gni_free(s->context, s);
 }
 

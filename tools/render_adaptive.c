@@ -211,10 +211,12 @@ int render_adaptively(stage *s, const adaptive_job *j, const stage_wish *like)
         status = EXIT_FAILED;
     else if (status == EXIT_DONE && j->csv && !fresh_open(&csv, j->csv))
         status = EXIT_FAILED;
-    if (status != EXIT_DONE)
+    if (status != EXIT_DONE) {
+        selecting_free(&files);
         return status;
+    }
     {
-        const adaptive_options options = {&files.knowledge, files.rules, files.rules_length, files.budget, j->power};
+        const adaptive_options options = {&files.knowledge, files.rules, files.budget, j->power};
 
         ok = adaptive_open(&a, s, &options, message) == 0;
     }

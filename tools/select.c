@@ -335,9 +335,8 @@ static int run(job *j)
         s.updates = (int)j->updates;
         s.prefers = j->prefers;
         set_possible(j, &s.possible);
-        gn_rules_create(context, files.rules, files.rules_length, &s.rules);
+        s.rules = files.rules;
         status = j->surface ? draw_surface(j, context, &s) : print_choices(j, context, &s);
-        gn_rules_destroy(s.rules);
         selecting_free(&files);
     }
     gn_context_destroy(context);

@@ -48,21 +48,23 @@ static int load_knowledge(const char *path, gn_context *context, gn_knowledge *o
 }
 
 /* A file that cannot be read as rules, or asks for facts that there are not, is found out here, with its name. */
-static int load_rules(const char *path, gn_context *context, selecting_files *out)
+static int load_rules(const char *path, gn_context *context, gn_rules **out)
 {
-    gn_selector *trial;
+    size_t length;
+    char *text = path ? read_file(path, &length) : NULL;
+    gn_selector *trial = NULL;
+    int ok;
 
-    if (!path)
-        return 1;
-    out->rules = read_file(path, &out->rules_length);
-    if (!out->rules)
+    if (path && !text)
         return 0;
-    if (gn_selector_create(context, NULL, out->rules, out->rules_length, &trial) != GN_OK) {
-        say("%s: %s", path, gn_message(context));
-        return 0;
-    }
+    ok = path ? gn_rules_create(context, text, length, out) == GN_OK &&
+                    gn_selector_create(context, NULL, *out, &trial) == GN_OK
+              : gn_rules_default(context, out) == GN_OK;
+    if (!ok)
+        say("%s: %s", path ? path : "rules", gn_message(context));
     gn_selector_destroy(trial);
-    return 1;
+    free(text);
+    return ok;
 }
 
 int selecting_load(const selecting *given, gn_context *context, selecting_files *out)
@@ -78,7 +80,7 @@ int selecting_load(const selecting *given, gn_context *context, selecting_files 
     out->budget.frame_ms = given->budget_ms;
     out->budget.energy_mw = given->budget_mw;
     out->budget.memory = given->budget_mb * 1e6;
-    if (load_knowledge(given->knowledge, context, &out->knowledge) && load_rules(given->rules, context, out))
+    if (load_knowledge(given->knowledge, context, &out->knowledge) && load_rules(given->rules, context, &out->rules))
         return EXIT_DONE;
     selecting_free(out);
     return EXIT_FAILED;
@@ -86,6 +88,6 @@ int selecting_load(const selecting *given, gn_context *context, selecting_files 
 
 void selecting_free(selecting_files *files)
 {
-    free(files->rules);
+    gn_rules_destroy(files->rules);
     files->rules = NULL;
 }

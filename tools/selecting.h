@@ -10,8 +10,7 @@ typedef struct selecting {
 } selecting;
 
 typedef struct selecting_files {
-    char *rules; /* NULL: the library's own */
-    size_t rules_length;
+    gn_rules *rules; /* until the context ends */
     gn_knowledge knowledge;
     gn_budget budget;
 } selecting_files;

@@ -136,7 +136,7 @@ int main(int count, char **arguments)
 
     if (count < 3)
         return fprintf(stderr, "usage: bench_frontier KNOWLEDGE.csv SCENE...\n"), 2;
-    if (gn_context_create(NULL, &context) != GN_OK || gn_rules_create(context, NULL, 0, &rules) != GN_OK ||
+    if (gn_context_create(NULL, &context) != GN_OK || gn_rules_default(context, &rules) != GN_OK ||
         !ways_read_knowledge(context, arguments[1], &k))
         return 1;
     printf("scene,budget_ms,way,accuracy,frame_ms,best_ms,ratio\n");

@@ -26,7 +26,7 @@ static double evaluate_us(gn_context *context)
     double us[REPEATS], inputs[GN_FACT_COUNT] = {3, 1, 4, 3000, 900, 0.3, 0.2, 0.4, 0.5}, outputs[64];
     gn_rules *rules;
 
-    if (gn_rules_create(context, NULL, 0, &rules) != GN_OK)
+    if (gn_rules_default(context, &rules) != GN_OK)
         return -1.0;
     for (int i = 0; i < REPEATS; i++) {
         const double start = processor_ms();
@@ -57,7 +57,7 @@ static double decide_us(gn_context *context, uint32_t count)
         lights[i].facts = (gn_facts){count, 1, 2, 3000, 900, 0.3, 0.2, 0.5, 0.5};
         lights[i].importance = i;
     }
-    if (gn_selector_create(context, NULL, NULL, 0, &selector) != GN_OK)
+    if (gn_selector_create(context, NULL, NULL, &selector) != GN_OK)
         return -1.0;
     gn_selector_set(selector, &asked);
     for (int i = 0; i < REPEATS; i++) {

@@ -266,17 +266,18 @@ static void works_rautenbachs_example(void **state)
 static void gives_memory_back(void **state)
 {
     test_port counter = {0, 0, 0};
+    static const char text[] = HEAD OUT BLOCK(" RULE 1 : if x is low then z is a;\n");
     const gn_port port = test_port_make(&counter);
     gn_context *context;
     gn_rules *rules;
-    double in[9] = {0}, out[16] = {0};
+    double in[2] = {0}, out[1];
     size_t calls, live;
 
     (void)state;
     assert_int_equal(gn_context_create(&port, &context), GN_OK);
     live = counter.live_bytes;
     calls = counter.calls;
-    assert_int_equal(gn_rules_create(context, NULL, 0, &rules), GN_OK);
+    assert_int_equal(gn_rules_create(context, text, strlen(text), &rules), GN_OK);
     calls = counter.calls - calls;
     {
         const size_t before = counter.calls;
@@ -290,7 +291,7 @@ static void gives_memory_back(void **state)
         size_t before = counter.calls;
 
         counter.fail_at = before + i;
-        if (gn_rules_create(context, NULL, 0, &rules) == GN_OK)
+        if (gn_rules_create(context, text, strlen(text), &rules) == GN_OK)
             gn_rules_destroy(rules); /* calls that give back are counted too */
         else
             assert_null(rules);
@@ -300,11 +301,64 @@ static void gives_memory_back(void **state)
     gn_context_destroy(context);
 }
 
+/* What the build made tables of is what the reader makes of the file. */
+static void has_rules_of_its_own(void **state)
+{
+    static char text[65536];
+    FILE *f = fopen("rules/default.fcl", "rb");
+    const size_t length = f ? fread(text, 1, sizeof text, f) : 0;
+    gn_rules *own, *read;
+    uint32_t seed = 3;
+
+    (void)state;
+    assert_non_null(f);
+    fclose(f);
+    assert_int_equal(gn_rules_create(test_context, text, length, &read), GN_OK);
+    assert_int_equal(gn_rules_default(test_context, &own), GN_OK);
+    assert_int_equal(gn_rules_count(own), gn_rules_count(read));
+    assert_int_equal(gn_rules_input_count(own), gn_rules_input_count(read));
+    assert_int_equal(gn_rules_output_count(own), gn_rules_output_count(read));
+    for (uint32_t i = 0; i < gn_rules_input_count(own); i++) {
+        assert_string_equal(gn_rules_input(own, i), gn_rules_input(read, i));
+        assert_int_equal(gn_rules_term_count(own, i), gn_rules_term_count(read, i));
+        for (uint32_t t = 0; t < gn_rules_term_count(own, i); t++)
+            assert_string_equal(gn_rules_term(own, i, t), gn_rules_term(read, i, t));
+    }
+    for (uint32_t i = 0; i < gn_rules_output_count(own); i++)
+        assert_string_equal(gn_rules_output(own, i), gn_rules_output(read, i));
+    for (uint32_t r = 0; r < gn_rules_count(own); r++) {
+        char a[512], b[512];
+
+        assert_int_equal(gn_rules_sentence(own, r, a, sizeof a), gn_rules_sentence(read, r, b, sizeof b));
+        assert_string_equal(a, b);
+        for (uint32_t i = 0; i < gn_rules_output_count(own); i++)
+            assert_int_equal(gn_rules_concludes(own, r, i), gn_rules_concludes(read, r, i));
+    }
+    for (int n = 0; n < 1000; n++) {
+        double in[16], a[16], b[16];
+
+        for (uint32_t i = 0; i < gn_rules_input_count(own); i++) {
+            double of_own[2], of_read[2];
+
+            gn_rules_range(own, i, of_own);
+            gn_rules_range(read, i, of_read);
+            assert_memory_equal(of_own, of_read, sizeof of_own);
+            in[i] = test_uniform(&seed, of_own[0], of_own[1]);
+        }
+        gn_rules_evaluate(own, in, a, NULL);
+        gn_rules_evaluate(read, in, b, NULL);
+        assert_memory_equal(a, b, gn_rules_output_count(own) * sizeof *a);
+    }
+    gn_rules_destroy(own);
+    gn_rules_destroy(read);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refuses_with_line_and_column),
         cmocka_unit_test(survives_any_text),
+        cmocka_unit_test(has_rules_of_its_own),
         cmocka_unit_test(nests_to_a_limit),
         cmocka_unit_test(says_what_it_is_of),
         cmocka_unit_test(keeps_or_takes_its_default),

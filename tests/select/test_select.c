@@ -393,7 +393,7 @@ static void names_ways(void **state)
 
 static int open_rules(void **state)
 {
-    return test_open_context(state) || gn_rules_create(test_context, NULL, 0, &rules) != GN_OK;
+    return test_open_context(state) || gn_rules_default(test_context, &rules) != GN_OK;
 }
 
 static int close_rules(void **state)

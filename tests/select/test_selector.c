@@ -32,7 +32,7 @@ static void open_bed(bed *b, uint32_t light_count)
 
 static void start(bed *b)
 {
-    assert_int_equal(gn_selector_create(test_context, &b->knowledge, NULL, 0, &b->selector), GN_OK);
+    assert_int_equal(gn_selector_create(test_context, &b->knowledge, NULL, &b->selector), GN_OK);
     gn_selector_set(b->selector, &b->asked);
 }
 
@@ -258,7 +258,7 @@ static void allocates_nothing(void **state)
     live = counter.live_bytes;
     open_bed(&b, 3);
     b.asked.budget.frame_ms = 14.0;
-    assert_int_equal(gn_selector_create(context, NULL, NULL, 0, &b.selector), GN_OK);
+    assert_int_equal(gn_selector_create(context, NULL, NULL, &b.selector), GN_OK);
     before = counter.calls;
     gn_selector_set(b.selector, &b.asked);
     run(&b, 300, 5.0);

@@ -153,7 +153,7 @@ int plant_simulate(gn_context *context, plant_load load, plant_control control, 
     asked.budget.frame_ms = out->budget_ms = BUDGET;
     asked.target_pixels = board.target_pixels;
     memset(asked.possible.variants, 0xff, sizeof asked.possible.variants);
-    if (control == PLANT_SELECTOR && gn_selector_create(context, &knowledge, NULL, 0, &selector) != GN_OK)
+    if (control == PLANT_SELECTOR && gn_selector_create(context, &knowledge, NULL, &selector) != GN_OK)
         return 0;
     if (selector)
         gn_selector_set(selector, &asked);

@@ -41,8 +41,7 @@ int adaptive_open(adaptive *a, stage *s, const adaptive_options *options, char m
     }
     a->object_count = s->scene->instance_count * (s->proxy_triangles ? 2 : 1);
     a->places = calloc(a->object_count + 1, sizeof *a->places);
-    if (!a->places || gn_selector_create(s->context, options->knowledge, options->rules, options->rules_length,
-                                         &a->selector) != GN_OK) {
+    if (!a->places || gn_selector_create(s->context, options->knowledge, options->rules, &a->selector) != GN_OK) {
         snprintf(message, SCENE_MESSAGE, "%s", a->places ? gn_message(s->context) : "no memory for the selector");
         adaptive_close(a);
         return 1;

@@ -7,8 +7,7 @@
 
 typedef struct adaptive_options {
     const gn_knowledge *knowledge; /* NULL: the library's own */
-    const char *rules;             /* NULL: the library's own */
-    size_t rules_length;
+    gn_rules *rules;               /* the same; used until the end */
     gn_budget budget;
     double power; /* a fact */
 } adaptive_options;
