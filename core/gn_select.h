@@ -68,6 +68,7 @@ double *gn_fact(gn_facts *facts, int fact);
 typedef struct gn_load {
     double indices;   /* of volumes */
     double fragments; /* that they rasterise */
+    double borders;   /* pixels round their triangles: fragments are made in blocks, and these are not full */
     double pixels;    /* in the light's scissor */
 } gn_load;
 
@@ -83,6 +84,7 @@ enum {
     GN_COST_SETUP,    /* once a frame, shared by the lights that are made this way */
     GN_COST_INDEX,    /* of volumes */
     GN_COST_FRAGMENT, /* of volumes, at the mask's size */
+    GN_COST_BORDER,   /* the same, of their triangles' borders */
     GN_COST_PIXEL,    /* of the mask */
     GN_COST_SWITCH,   /* of target or pass: 1 for a stencil's, 2 for a mask's in a texture */
     GN_COST_COUNT
@@ -102,6 +104,8 @@ enum {
 uint32_t gn_variant_scale(int variant);
 gn_upsample gn_variant_upsample(int variant);
 int gn_way_variant(const gn_way *way);
+/* How much of each coefficient a light's mask takes by a way, but for its kept masks and proxies; setup is 1. */
+void gn_count_costs(const gn_way *way, const gn_load *load, double counts[GN_COST_COUNT]);
 
 typedef struct gn_knowledge {
     struct gn_known_way {
@@ -116,7 +120,7 @@ typedef struct gn_knowledge {
 void gn_knowledge_default(gn_knowledge *out);
 
 /* Reads what `gnomon calibrate` writes, a CSV with a row for each way: method, scale, upsample, accuracy, us_setup,
- * us_index, us_fragment, us_pixel, us_switch, bytes_setup, ... bytes_switch. Ways without a row are not known. Returns GN_OK;
+ * us_index, us_fragment, us_border, us_pixel, us_switch, bytes_setup, ... bytes_switch. Ways without a row are not known. Returns GN_OK;
  * GN_E_ARG with line and column; *out is untouched unless GN_OK. */
 gn_result gn_knowledge_read(gn_context *context, const char *text, size_t length, gn_knowledge *out);
 

@@ -45,6 +45,18 @@ int gn_way_variant(const gn_way *way)
     return v;
 }
 
+void gn_count_costs(const gn_way *way, const gn_load *load, double counts[GN_COST_COUNT])
+{
+    const double scale = way->method == GN_METHOD_REFINE ? 1.0 : way->scale; /* its volumes are at full size */
+
+    counts[GN_COST_SETUP] = 1.0;
+    counts[GN_COST_INDEX] = load->indices;
+    counts[GN_COST_FRAGMENT] = load->fragments / (scale * scale);
+    counts[GN_COST_BORDER] = load->borders / scale;
+    counts[GN_COST_PIXEL] = load->pixels / (scale * scale);
+    counts[GN_COST_SWITCH] = way->method == GN_METHOD_STENCIL && way->scale == 1 ? 1.0 : 2.0;
+}
+
 int gni_way_exists(int method, int variant)
 {
     if (method == GN_METHOD_REFINE)
@@ -52,60 +64,65 @@ int gni_way_exists(int method, int variant)
     return method > GN_METHOD_ZPASS;
 }
 
-/* Microseconds at full size, by method: fitted to the test scenes on llvmpipe, two threads (bench_predict). z-fail
- * and z-pass are what stencil is measured by, and are not chosen. */
+/* Microseconds, fitted to the test scenes on llvmpipe, two threads (bench_predict). z-fail and z-pass are what stencil is
+ * measured by, and are not chosen. */
 static const struct {
-    float setup, index, fragment, pixel, pass; /* pass: of a switch */
-    uint8_t bytes;                             /* of a fragment */
-    uint8_t accuracy;
-} defaults[GN_METHOD_TOTAL] = {
-    [GN_METHOD_STENCIL] = {350, 0.03f, 0.0029f, 0.0f, 20, 8, GN_ACCURACY_EXACT},
-    [GN_METHOD_REFINE] = {0, 0.19f, 0.0028f, 0.0175f, 200, 8, GN_ACCURACY_FINE},
-    [GN_METHOD_COUNT] = {660, 0.09f, 0.0084f, 0.0044f, 190, 12, GN_ACCURACY_EXACT},
-    [GN_METHOD_SIGNED] = {400, 0.1f, 0.0078f, 0.02f, 80, 12, GN_ACCURACY_EXACT},
-    [GN_METHOD_ALPHA] = {240, 0.08f, 0.0085f, 0.008f, 70, 12, GN_ACCURACY_FAIR},
-    [GN_METHOD_SCREEN] = {900, 0.08f, 0.015f, 0.002f, 150, 12, GN_ACCURACY_FAIR},
+    uint8_t method, variant, accuracy;
+    float us[GN_COST_COUNT]; /* setup, index, fragment, border, pixel, switch */
+} defaults[] = {
+    {GN_METHOD_STENCIL, GN_VARIANT_FULL, GN_ACCURACY_EXACT, {50, 0.029f, 0.0014f, 0.0041f, 0, 54}},
+    {GN_METHOD_STENCIL, GN_VARIANT_HALF, GN_ACCURACY_FAIR, {150, 0.033f, 0.0072f, 0.0067f, 0, 60}},
+    {GN_METHOD_STENCIL, GN_VARIANT_HALF_DEPTH, GN_ACCURACY_FAIR, {150, 0.033f, 0.0072f, 0.0067f, 0, 110}},
+    {GN_METHOD_STENCIL, GN_VARIANT_QUARTER, GN_ACCURACY_ROUGH, {90, 0.032f, 0.025f, 0.0055f, 0, 50}},
+    {GN_METHOD_STENCIL, GN_VARIANT_QUARTER_DEPTH, GN_ACCURACY_ROUGH, {90, 0.032f, 0.025f, 0.0055f, 0, 70}},
+    {GN_METHOD_REFINE, GN_VARIANT_HALF, GN_ACCURACY_FINE, {290, 0.055f, 0.0007f, 0.012f, 0.014f, 180}},
+    {GN_METHOD_REFINE, GN_VARIANT_QUARTER, GN_ACCURACY_FINE, {120, 0.064f, 0.0004f, 0.0105f, 0.015f, 140}},
+    {GN_METHOD_COUNT, GN_VARIANT_FULL, GN_ACCURACY_EXACT, {790, 0.053f, 0.0052f, 0.0055f, 0.004f, 175}},
+    {GN_METHOD_COUNT, GN_VARIANT_HALF, GN_ACCURACY_FAIR, {590, 0.052f, 0.013f, 0.0047f, 0, 72}},
+    {GN_METHOD_COUNT, GN_VARIANT_HALF_DEPTH, GN_ACCURACY_FAIR, {570, 0.058f, 0.0113f, 0.0064f, 0, 160}},
+    {GN_METHOD_COUNT, GN_VARIANT_QUARTER, GN_ACCURACY_ROUGH, {500, 0.046f, 0.044f, 0.005f, 0, 15}},
+    {GN_METHOD_COUNT, GN_VARIANT_QUARTER_DEPTH, GN_ACCURACY_ROUGH, {290, 0.058f, 0.043f, 0.011f, 0, 110}},
+    {GN_METHOD_SIGNED, GN_VARIANT_FULL, GN_ACCURACY_EXACT, {265, 0.051f, 0.005f, 0.0144f, 0.0147f, 78}},
+    {GN_METHOD_SIGNED, GN_VARIANT_HALF, GN_ACCURACY_FAIR, {630, 0.096f, 0.0146f, 0.0146f, 0, 77}},
+    {GN_METHOD_SIGNED, GN_VARIANT_HALF_DEPTH, GN_ACCURACY_FAIR, {455, 0.081f, 0.0174f, 0.0164f, 0, 165}},
+    {GN_METHOD_SIGNED, GN_VARIANT_QUARTER, GN_ACCURACY_ROUGH, {510, 0.072f, 0.05f, 0.018f, 0, 15}},
+    {GN_METHOD_SIGNED, GN_VARIANT_QUARTER_DEPTH, GN_ACCURACY_ROUGH, {320, 0.081f, 0.055f, 0.021f, 0, 107}},
+    {GN_METHOD_ALPHA, GN_VARIANT_FULL, GN_ACCURACY_FAIR, {155, 0.054f, 0.0071f, 0.0172f, 0.0062f, 61}},
+    {GN_METHOD_ALPHA, GN_VARIANT_HALF, GN_ACCURACY_FAIR, {565, 0.104f, 0.0186f, 0.0241f, 0, 94}},
+    {GN_METHOD_ALPHA, GN_VARIANT_HALF_DEPTH, GN_ACCURACY_FAIR, {515, 0.098f, 0.0212f, 0.0254f, 0, 170}},
+    {GN_METHOD_ALPHA, GN_VARIANT_QUARTER, GN_ACCURACY_ROUGH, {440, 0.105f, 0.067f, 0.024f, 0, 15}},
+    {GN_METHOD_ALPHA, GN_VARIANT_QUARTER_DEPTH, GN_ACCURACY_ROUGH, {260, 0.104f, 0.067f, 0.028f, 0, 112}},
+    {GN_METHOD_SCREEN, GN_VARIANT_FULL, GN_ACCURACY_FAIR, {850, 0.085f, 0.0085f, 0.0152f, 0, 137}},
+    {GN_METHOD_SCREEN, GN_VARIANT_HALF, GN_ACCURACY_FAIR, {585, 0.099f, 0.0187f, 0.0144f, 0, 32}},
+    {GN_METHOD_SCREEN, GN_VARIANT_HALF_DEPTH, GN_ACCURACY_FAIR, {520, 0.095f, 0.021f, 0.016f, 0, 105}},
+    {GN_METHOD_SCREEN, GN_VARIANT_QUARTER, GN_ACCURACY_ROUGH, {480, 0.086f, 0.06f, 0.0158f, 0, 15}},
+    {GN_METHOD_SCREEN, GN_VARIANT_QUARTER_DEPTH, GN_ACCURACY_ROUGH, {260, 0.09f, 0.06f, 0.018f, 0, 70}},
 };
 
 #define SLOWER 2.0 /* than that: an unknown board is taken for a slow one */
 
-/* Small masks: fragments are a fourth or a sixteenth, but each is of a triangle's border more often. */
-static void make_small(struct gn_known_way *k, int method, uint32_t scale, int is_depth)
+/* Of a fragment two buffers are read and one or two written; of a pixel the mask is written, and read by what lights. */
+static void set_bytes(double bytes[GN_COST_COUNT], gn_method method, int variant)
 {
-    const int is_simple = method == GN_METHOD_STENCIL || method == GN_METHOD_COUNT;
+    const double scale = gn_variant_scale(variant);
+    const int reads = gn_variant_upsample(variant) == GN_UPSAMPLE_DEPTH ? 4 : 1;
 
-    k->us[GN_COST_SETUP] = is_depth ? 400.0 : 550.0;
-    k->us[GN_COST_INDEX] = is_simple ? fmax(k->us[GN_COST_INDEX], 0.05) * (is_depth ? 1.5 : 1.1) : 0.16;
-    k->us[GN_COST_FRAGMENT] *= scale == 2 ? 3.0 : 6.5;
-    k->us[GN_COST_PIXEL] = 0.0;
-    k->us[GN_COST_SWITCH] = is_depth ? 170.0 : 80.0;
-    for (int c = 0; c < GN_COST_COUNT && is_depth && scale == 2; c++)
-        k->us[c] *= 1.25;
-    k->bytes[GN_COST_PIXEL] += 4.0 * (is_depth ? 4.0 : 1.0) * scale * scale;
-    k->accuracy = scale == 2 ? GN_ACCURACY_FAIR : GN_ACCURACY_ROUGH;
+    bytes[GN_COST_FRAGMENT] = method == GN_METHOD_STENCIL || method == GN_METHOD_REFINE ? 8.0 : 12.0;
+    bytes[GN_COST_PIXEL] = 8.0;
+    if (method != GN_METHOD_REFINE && variant != GN_VARIANT_FULL)
+        bytes[GN_COST_PIXEL] += 4.0 * reads * scale * scale;
 }
 
 void gn_knowledge_default(gn_knowledge *out)
 {
     memset(out, 0, sizeof *out);
-    for (int m = 0; m < GN_METHOD_TOTAL; m++)
-        for (int v = 0; v < GN_VARIANT_COUNT; v++) {
-            struct gn_known_way *k = &out->ways[m][v];
+    for (size_t i = 0; i < sizeof defaults / sizeof defaults[0]; i++) {
+        struct gn_known_way *k = &out->ways[defaults[i].method][defaults[i].variant];
 
-            if (!gni_way_exists(m, v))
-                continue;
-            k->is_known = 1;
-            k->us[GN_COST_SETUP] = (double)defaults[m].setup;
-            k->us[GN_COST_INDEX] = (double)defaults[m].index;
-            k->us[GN_COST_FRAGMENT] = (double)defaults[m].fragment;
-            k->us[GN_COST_PIXEL] = (double)defaults[m].pixel;
-            k->us[GN_COST_SWITCH] = (double)defaults[m].pass;
-            k->bytes[GN_COST_FRAGMENT] = defaults[m].bytes;
-            k->bytes[GN_COST_PIXEL] = 8.0;
-            k->accuracy = (gn_accuracy)defaults[m].accuracy;
-            if (m != GN_METHOD_REFINE && v != GN_VARIANT_FULL)
-                make_small(k, m, gn_variant_scale(v), gn_variant_upsample(v) == GN_UPSAMPLE_DEPTH);
-            for (int c = 0; c < GN_COST_COUNT; c++)
-                k->us[c] *= SLOWER;
-        }
+        k->is_known = 1;
+        k->accuracy = (gn_accuracy)defaults[i].accuracy;
+        for (int c = 0; c < GN_COST_COUNT; c++)
+            k->us[c] = SLOWER * (double)defaults[i].us[c];
+        set_bytes(k->bytes, (gn_method)defaults[i].method, defaults[i].variant);
+    }
 }

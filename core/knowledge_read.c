@@ -4,9 +4,10 @@
 
 #include <string.h>
 
-static const char *const columns[] = {"method",      "scale",          "upsample",    "accuracy",    "us_setup",
-                                      "us_index",    "us_fragment",    "us_pixel",    "us_switch",   "bytes_setup",
-                                      "bytes_index", "bytes_fragment", "bytes_pixel", "bytes_switch"};
+static const char *const columns[] = {"method",         "scale",        "upsample",    "accuracy",
+                                      "us_setup",       "us_index",     "us_fragment", "us_border",
+                                      "us_pixel",       "us_switch",    "bytes_setup", "bytes_index",
+                                      "bytes_fragment", "bytes_border", "bytes_pixel", "bytes_switch"};
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
 static void read_word(gni_scan *s, char word[16])

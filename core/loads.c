@@ -1,6 +1,6 @@
 /* loads.c - how much there is to draw for a light's shadows, and what they are like: read off a plan.
  *
- * Fragments are the projected areas of volumes' triangles within the scissor. All of them would cost as much as a
+ * Fragments are the projected areas of volumes' triangles within the scissor, borders what is round them. All of them would cost as much as a
  * vertex shader does, so a sample is taken, evenly from first to last: a quad of a side, or a triangle of a cap, at each
  * step. */
 #include "gn_select.h"
@@ -54,28 +54,35 @@ static int clip(double (*out)[4], const double (*in)[4], int count, const double
     return kept;
 }
 
-/* Pixels of a triangle in clip space. */
-static double area_of(const window *w, double triangle[3][4])
+/* How much of the target a triangle takes, in pixels. */
+typedef struct extent {
+    double area, border;
+} extent;
+
+/* Adds a triangle in clip space, so many times. */
+static void add_triangle(const window *w, double triangle[3][4], double times, extent *sum)
 {
-    double corners[2][MOST_CORNERS][4], area = 0.0;
+    double corners[2][MOST_CORNERS][4], at[MOST_CORNERS][2], area = 0.0;
     int count = 3, from = 0;
 
     memcpy(corners[0], triangle, 3 * sizeof triangle[0]);
     for (int p = 0; p < 5 && count > 0; p++, from = !from)
         count = clip(corners[!from], (const double(*)[4])corners[from], count, w->planes[p]);
-    for (int i = 1; i + 1 < count; i++) {
-        const double *a = corners[from][0], *b = corners[from][i], *c = corners[from][i + 1];
-        double x[2], y[2];
+    for (int i = 0; i < count; i++) {
+        const double *c = corners[from][i];
 
-        if (!(a[3] > 0.0 && b[3] > 0.0 && c[3] > 0.0))
-            continue;
-        x[0] = w->half[0] * (b[0] / b[3] - a[0] / a[3]);
-        y[0] = w->half[1] * (b[1] / b[3] - a[1] / a[3]);
-        x[1] = w->half[0] * (c[0] / c[3] - a[0] / a[3]);
-        y[1] = w->half[1] * (c[1] / c[3] - a[1] / a[3]);
-        area += fabs(x[0] * y[1] - x[1] * y[0]) / 2.0;
+        if (!(c[3] > 0.0))
+            return;
+        for (int axis = 0; axis < 2; axis++)
+            at[i][axis] = w->half[axis] * c[axis] / c[3];
     }
-    return area;
+    for (int i = 0; i < count; i++) {
+        const double *a = at[i], *b = at[(i + 1) % count];
+
+        area += (a[0] - at[0][0]) * (b[1] - at[0][1]) - (a[1] - at[0][1]) * (b[0] - at[0][0]);
+        sum->border += times * sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]));
+    }
+    sum->area += times * fabs(area) / 2.0;
 }
 
 /* ------------------------------------------------------------------ records */
@@ -94,20 +101,18 @@ static void place(double out[4], const gn_mesh_info *mesh, const gn_record *r, u
                  (double)m[12 + k];
 }
 
-static double area_of_triangles(const gn_plan *plan, const gn_record *r, const window *w, const uint16_t *indices,
-                                uint32_t triangles)
+static void add_triangles(const gn_plan *plan, const gn_record *r, const window *w, const uint16_t *indices,
+                          uint32_t triangles, double times, extent *sum)
 {
     const gn_mesh_info *mesh = gn_mesh_get_info(plan->objects[r->object].mesh);
-    double area = 0.0;
 
     for (uint32_t t = 0; t < triangles; t++) {
         double corners[3][4];
 
         for (int k = 0; k < 3; k++)
             place(corners[k], mesh, r, indices[3 * t + (uint32_t)k]);
-        area += area_of(w, corners);
+        add_triangle(w, corners, times, sum);
     }
-    return area;
 }
 
 /* A sun's far vertices are all at one point: its sides are triangles, if they do not end. */
@@ -122,7 +127,7 @@ static uint32_t triangles_of_a_side(const gn_record *r)
 /* Steps through pieces of one kind, of all records of a light. */
 typedef struct sampler {
     double step, next; /* pieces from one sample to the next; how many to go */
-    double area;
+    extent sum;
 } sampler;
 
 static void sample(sampler *s, const gn_plan *plan, const gn_record *r, uint32_t first, uint32_t count,
@@ -137,8 +142,7 @@ static void sample(sampler *s, const gn_plan *plan, const gn_record *r, uint32_t
         if (!is_set)
             set_window(&w, plan, r->scissor);
         is_set = 1;
-        s->area +=
-            s->step * area_of_triangles(plan, r, &w, indices + 3 * (size_t)of_a_piece * (size_t)s->next, of_a_piece);
+        add_triangles(plan, r, &w, indices + 3 * (size_t)of_a_piece * (size_t)s->next, of_a_piece, s->step, &s->sum);
     }
     s->next -= pieces;
 }
@@ -175,7 +179,7 @@ int gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_lo
 {
     const gn_plan_light *l = &plan->lights[light];
     double sides = 0.0, caps = 0.0, border = 0.0;
-    sampler of_sides, of_caps;
+    sampler of_sides = {0}, of_caps = {0};
 
     if (plan->mask_age > 0)
         return 0;
@@ -199,7 +203,6 @@ int gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_lo
     of_caps.step = fmax(1.0, 2.0 * caps / samples);
     of_sides.next = floor(of_sides.step / 2.0);
     of_caps.next = floor(of_caps.step / 2.0);
-    of_sides.area = of_caps.area = 0.0;
     for (uint32_t i = 0; i < plan->record_count; i++) {
         const gn_record *r = &plan->records[i];
 
@@ -210,7 +213,8 @@ int gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_lo
         sample(&of_caps, plan, r, r->first_dark_cap, r->dark_cap_count + r->near_cap_count, 1);
         sample(&of_caps, plan, r, r->first_turned_cap, r->turned_cap_count, 1);
     }
-    load->fragments = of_sides.area + of_caps.area;
+    load->fragments = of_sides.sum.area + of_caps.sum.area;
+    load->borders = of_sides.sum.border + of_caps.sum.border;
     for (uint32_t i = 0; i < plan->object_count; i++)
         if (plan->casters[(size_t)light * plan->object_count + i].skip == GN_SKIP_NOT) {
             facts->faces += gn_mesh_get_info(plan->objects[i].mesh)->triangle_count;

@@ -38,14 +38,12 @@ static void find_cost(const gn_selection *s, const gn_light_state *light, const 
                       gni_candidate *c)
 {
     const gn_way *way = &c->way;
-    const double area = (double)way->scale * way->scale, gain = s->gains ? s->gains[way->method] : 1.0;
-    const int is_small = way->method != GN_METHOD_REFINE,
-              is_direct = way->method == GN_METHOD_STENCIL && way->scale == 1;
-    const double counts[GN_COST_COUNT] = {1.0 / s->light_count, light->load.indices * (way->proxies ? 0.5 : 1.0),
-                                          light->load.fragments / (is_small ? area : 1.0),
-                                          light->load.pixels / (is_small ? area : 1.0), is_direct ? 1.0 : 2.0};
-    double us = 0.0, bytes = 0.0, ms_left, mj_left;
+    const double gain = s->gains ? s->gains[way->method] : 1.0;
+    double counts[GN_COST_COUNT], us = 0.0, bytes = 0.0, ms_left, mj_left;
 
+    gn_count_costs(way, &light->load, counts);
+    counts[GN_COST_SETUP] /= s->light_count;
+    counts[GN_COST_INDEX] *= way->proxies ? 0.5 : 1.0;
     for (int i = 0; i < GN_COST_COUNT; i++) {
         /* a mask that is kept is read all the same */
         const double count = counts[i] / (i == GN_COST_PIXEL ? 1.0 : way->update_every);
@@ -261,7 +259,7 @@ static void prefer(const gn_selection *s, uint32_t light, int accuracy, double s
 static int is_sound(const gn_light_state *l)
 {
     gn_facts facts = l->facts;
-    const double others[] = {l->load.indices, l->load.fragments, l->load.pixels, l->importance};
+    const double others[] = {l->load.indices, l->load.fragments, l->load.borders, l->load.pixels, l->importance};
     int ok = 1;
 
     for (int f = 0; f < GN_FACT_COUNT; f++)

@@ -95,8 +95,8 @@ static void put_facts(gni_text *t, const gn_selection *s, uint32_t light, gni_su
             gni_put(t, "%s%s %.2f", term ? ", " : ": ", gn_rules_term(s->rules, input, term),
                     gn_rules_membership(s->rules, input, term, *gn_fact(&suits->facts, f)));
     }
-    gni_put(t, "\nload: %.0f indices, %.0f fragments, %.0f pixels", s->lights[light].load.indices,
-            s->lights[light].load.fragments, s->lights[light].load.pixels);
+    gni_put(t, "\nload: %.0f indices, %.0f fragments, %.0f of borders, %.0f pixels", s->lights[light].load.indices,
+            s->lights[light].load.fragments, s->lights[light].load.borders, s->lights[light].load.pixels);
 }
 
 static void put_rules(gni_text *t, const gn_selection *s, const gni_suits *suits)

@@ -295,6 +295,7 @@ static void note_lights(gn_selector *s, const gn_light_state *lights, uint32_t c
         s->lights[i] = lights[i];
         peak->indices = fmax(left * peak->indices, lights[i].load.indices);
         peak->fragments = fmax(left * peak->fragments, lights[i].load.fragments);
+        peak->borders = fmax(left * peak->borders, lights[i].load.borders);
         peak->pixels = fmax(left * peak->pixels, lights[i].load.pixels);
     }
     s->light_count = count;
@@ -326,17 +327,41 @@ static void predict(gn_selector *s)
     }
 }
 
-/* What costs no more than now, but serves a more important light: nothing needs to be free for that. */
-static int redistribute(gn_selector *s, const gn_selection *of, double used)
+/* Whether a light is less accurate than one that matters less. */
+static int is_upside_down(const gn_selector *s, const gn_selection *of)
 {
-    gn_way ways[GN_MOST_SELECTED];
+    gn_accuracy accuracy[GN_MOST_SELECTED];
+    gni_candidate c;
 
-    for (uint32_t i = 0; i < of->light_count; i++)
-        ways[i] = s->wanted[i].way;
-    if (usage(of, ways) > used * (1.0 + 1e-9))
-        return 0;
-    spend(s, of, s->wanted);
-    return s->has_changed;
+    for (uint32_t i = 0; i < s->light_count; i++) {
+        gni_consider_way(of, i, &s->ways[i], &c);
+        accuracy[i] = c.accuracy;
+        for (uint32_t k = 0; k < i; k++) {
+            const double more = s->lights[i].importance - s->lights[k].importance;
+
+            if ((more > 0.0 && accuracy[i] < accuracy[k]) || (more < 0.0 && accuracy[i] > accuracy[k]))
+                return 1;
+        }
+    }
+    return 0;
+}
+
+/* What would be chosen of as much as is used now: nothing needs to be free for what serves a more important light. */
+static gn_result redistribute(gn_selector *s, double used)
+{
+    gn_choice wanted[GN_MOST_SELECTED];
+    gn_selection of = selection_of(s, 1.0);
+    double ms_left, mj_left;
+    gn_result result;
+
+    gni_allowance(&of, &ms_left, &mj_left);
+    if (of.budget.frame_ms > 0.0)
+        of.budget.frame_ms = of.host_ms + used * ms_left * (1.0 + 1e-9);
+    of.budget.energy_mw *= used * (1.0 + 1e-9);
+    result = gn_select(s->context, &of, wanted);
+    if (result == GN_OK)
+        spend(s, &of, wanted);
+    return result;
 }
 
 static gn_result decide(gn_selector *s, uint32_t known)
@@ -373,8 +398,11 @@ static gn_result decide(gn_selector *s, uint32_t known)
     }
     if (s->since < s->wait_up)
         return GN_OK;
-    if (redistribute(s, &of, used))
-        return GN_OK;
+    if (used > 0.0 && is_upside_down(s, &of)) {
+        result = redistribute(s, used);
+        if (result != GN_OK || s->has_changed)
+            return result;
+    }
     swap_loads(s);
     of = selection_of(s, FREE);
     result = gn_select(s->context, &of, with_room);

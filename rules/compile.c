@@ -167,8 +167,10 @@ int main(void)
     print_words("own_thens", r->thens, r->then_count);
     print_sentences(r);
     print_names(&n);
-    printf("static const gn_rules gni_default_rules = {\n    .text = own_text,\n    .names = own_names,\n    .inputs = own_inputs,\n"
-           "    .outputs = own_outputs,\n    .terms = own_terms,\n    .points = own_points,\n    .rules = own_rules,\n    .code = own_code,\n"
+    printf("static const gn_rules gni_default_rules = {\n    .text = own_text,\n    .names = own_names,\n    .inputs = "
+           "own_inputs,\n"
+           "    .outputs = own_outputs,\n    .terms = own_terms,\n    .points = own_points,\n    .rules = own_rules,\n "
+           "   .code = own_code,\n"
            "    .thens = own_thens,\n    .input_count = %lu,\n    .output_count = %lu,\n    .term_count = %lu,\n"
            "    .point_count = %lu,\n    .rule_count = %lu,\n    .code_count = %lu,\n    .then_count = %lu};\n",
            (unsigned long)r->input_count, (unsigned long)r->output_count, (unsigned long)r->term_count,

@@ -25,7 +25,8 @@ const char help_calibrate[] =
     "\n"
     "  -o FILE.csv           a row for each way that is possible: its accuracy, then for time (us_) and\n"
     "                        memory traffic (bytes_) what a frame, an index of volumes, a fragment of\n"
-    "                        them, a pixel of the mask and a switch of target cost\n"
+    "                        them, a pixel of their triangles' borders, a pixel of the mask and a switch\n"
+    "                        of target cost\n"
     "  --trade FILE.csv      takes accuracies from a table of `gnomon measure`\n"
     "  --platform NAME       egl or osmesa [the first that works]\n"
     "  --hide CAP[,CAP...]   pretends that capabilities are absent\n"
@@ -38,8 +39,8 @@ static const struct sample {
 } samples[] = {{2, 0}, {3, 1}, {5, 0}};
 enum { SAMPLES = sizeof samples / sizeof samples[0], DRAWS = 2, LIGHTS = 2 };
 
-#define SPREAD 0.05 /* of ways' multiples about the board's, as is likely */
-#define DEARER 1.15 /* the sample is than test scenes with as much to draw (bench_predict) */
+#define STRAYS 1.4  /* so many times dearer or cheaper a way may look in the sample than it is in other scenes */
+#define DEARER 1.4  /* the sample is than test scenes with as much to draw (bench_predict) */
 #define ENOUGH 1700 /* ms: no further way is observed; what was not follows what was */
 
 typedef struct observed {
@@ -77,21 +78,20 @@ static int draw(stage *s, const stage_wish *wish, double *us, char message[SCENE
 
 static void note_counts(const stage *s, const stage_wish *wish, double counts[FIT_MOST])
 {
-    const double area = wish->method == GN_METHOD_REFINE ? 1.0 : (double)wish->scale * wish->scale;
-    const int is_direct = wish->method == GN_METHOD_STENCIL && wish->scale == 1;
+    const gn_way way = {.method = wish->method, .scale = wish->scale};
 
     memset(counts, 0, FIT_MOST * sizeof *counts);
-    counts[GN_COST_SETUP] = 1.0;
     for (uint32_t i = 0; i < s->plan->light_count; i++) {
         gn_load load;
         gn_facts facts;
+        double of_light[GN_COST_COUNT];
 
         gn_plan_measure(s->plan, i, 1024, &load, &facts);
-        counts[GN_COST_INDEX] += load.indices;
-        counts[GN_COST_FRAGMENT] += load.fragments / area;
-        counts[GN_COST_PIXEL] += load.pixels / area;
-        counts[GN_COST_SWITCH] += is_direct ? 1.0 : 2.0;
+        gn_count_costs(&way, &load, of_light);
+        for (int c = 0; c < GN_COST_COUNT; c++)
+            counts[c] += of_light[c];
     }
+    counts[GN_COST_SETUP] = 1.0;
 }
 
 static double traffic_of(const stage *s)
@@ -189,21 +189,15 @@ static double board_multiple(observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT], co
     return count ? fmax(spread_of(multiples, count).median / DEARER, 1e-3) : 1.0;
 }
 
-/* A way's own multiple, drawn to the board's by as much as its rows disagree. */
+/* A way's own multiple: the board's, but for by how much it is farther from that than a few frames of one scene may be. */
 static double own_multiple(const observed *o, const double *values, double board, const double *costs)
 {
-    const double prior = SPREAD * SPREAD * board * board;
-    double expected, error = 0.0;
-    const double own = multiple_of(o, values, costs, &expected);
+    double expected;
+    const double ratio = multiple_of(o, values, costs, &expected) / board;
 
-    for (int i = 0; i < o->rows; i++) {
-        double row = 0.0;
-
-        for (int c = 0; c < GN_COST_COUNT; c++)
-            row += o->counts[i][c] * costs[c];
-        error += (values[i] - own * row) * (values[i] - own * row) / (expected * expected);
-    }
-    return fmax((own * prior + board * error) / (prior + error), 0.1 * board);
+    if (!(ratio > 0.01))
+        return 0.01 * board;
+    return board * (ratio > 1.0 ? fmax(ratio / STRAYS, 1.0) : fmin(ratio * STRAYS, 1.0));
 }
 
 /* Costs times the multiple; and from there, where the way itself was measured, each coefficient. */
@@ -242,7 +236,7 @@ static void fit_all(observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT], gn_knowledg
 
 static int write_knowledge(const gn_knowledge *k, const gn_possible *possible, const char *path)
 {
-    static const char *const costs[GN_COST_COUNT] = {"setup", "index", "fragment", "pixel", "switch"};
+    static const char *const costs[GN_COST_COUNT] = {"setup", "index", "fragment", "border", "pixel", "switch"};
     fresh_file f;
 
     if (!fresh_open(&f, path))

@@ -16,9 +16,9 @@ const char help_select[] =
     "Chooses how a light's shadows are made, from its facts and load, without drawing. Prints the way.\n"
     "\n"
     "  --fact NAME=VALUE     lights, moving, layers, faces, edges, nearness, motion, power; or of the load:\n"
-    "                        indices, fragments, pixels [lights 1, nearness 0.3, motion 0.1, power 1, layers 2,\n"
-    "                        faces 2000, edges 500; fragments: twice layers times pixels; pixels 100000;\n"
-    "                        indices: 12 an edge]\n"
+    "                        indices, fragments, borders, pixels [lights 1, nearness 0.3, motion 0.1, power 1,\n"
+    "                        layers 2, faces 2000, edges 500; fragments: twice layers times pixels; pixels\n"
+    "                        100000; indices: 12 an edge; borders: of so many and large slender triangles]\n"
     "  --lights N            so many such lights, each less important than the one before [1]\n"
     "  --rules FILE.fcl      instead of the library's own\n"
     "  --prefer              what suits best of what can be paid for, whatever its accuracy\n"
@@ -35,7 +35,7 @@ const char help_select[] =
     "  --output NAME         what it shows: an output of the rules [which way is taken]\n"
     "  --help                this text\n";
 
-enum { SIDE = 41 };
+enum { SIDE = 41, LOADS = 4 };
 
 typedef struct job {
     selecting given;
@@ -45,15 +45,15 @@ typedef struct job {
     long light_count, updates;
     int prefers, explain, has_proxies;
     int surface_facts[2];
-    double values[GN_FACT_COUNT + 3]; /* facts, then indices, fragments, pixels; NAN: not given */
+    double values[GN_FACT_COUNT + LOADS]; /* facts, then loads; NAN: not given */
 } job;
 
-static const char *const load_names[] = {"indices", "fragments", "pixels"};
+static const char *const load_names[LOADS] = {"indices", "fragments", "borders", "pixels"};
 
 /* The place of a fact or a load; -1 having said that there is none. */
 static int find_fact(const char *from, const char *name, size_t length)
 {
-    for (int i = 0; i < GN_FACT_COUNT + 3; i++) {
+    for (int i = 0; i < GN_FACT_COUNT + LOADS; i++) {
         const char *of = i < GN_FACT_COUNT ? gn_fact_name(i) : load_names[i - GN_FACT_COUNT];
 
         if (strlen(of) == length && strncmp(of, name, length) == 0)
@@ -65,7 +65,7 @@ static int find_fact(const char *from, const char *name, size_t length)
 
 static int parse_facts(job *j)
 {
-    for (int i = 0; i < GN_FACT_COUNT + 3; i++)
+    for (int i = 0; i < GN_FACT_COUNT + LOADS; i++)
         j->values[i] = NAN;
     for (int i = 0; i < j->facts.count; i++) {
         const char *text = j->facts.of[i], *equals = strchr(text, '=');
@@ -120,9 +120,10 @@ static void set_light(const double *v, gn_light_state *light)
     memset(light, 0, sizeof *light);
     for (int f = 0; f < GN_FACT_COUNT; f++)
         *gn_fact(&light->facts, f) = given_or(v[f], usual[f]);
-    light->load.pixels = given_or(v[GN_FACT_COUNT + 2], 100000.0);
+    light->load.pixels = given_or(v[GN_FACT_COUNT + 3], 100000.0);
     light->load.fragments = given_or(v[GN_FACT_COUNT + 1], 2.0 * light->facts.layers * light->load.pixels);
     light->load.indices = given_or(v[GN_FACT_COUNT], 12.0 * light->facts.edges);
+    light->load.borders = given_or(v[GN_FACT_COUNT + 2], 8.0 * sqrt(light->load.fragments * light->load.indices / 3.0));
 }
 
 static void set_possible(const job *j, gn_possible *out)
@@ -205,6 +206,7 @@ static void find_range(const job *j, const gn_rules *rules, const double *values
     of->high[axis] = 4.0 * (fact < GN_FACT_COUNT        ? fmax(*gn_fact(&light.facts, fact), 0.25)
                             : fact == GN_FACT_COUNT     ? light.load.indices
                             : fact == GN_FACT_COUNT + 1 ? light.load.fragments
+                            : fact == GN_FACT_COUNT + 2 ? light.load.borders
                                                         : light.load.pixels);
 }
 
@@ -300,7 +302,7 @@ static int draw_surface(const job *j, gn_context *context, gn_selection *s)
         find_range(j, s->rules, j->values, axis, &of);
     for (int y = 0; y < SIDE; y++)
         for (int x = 0; x < SIDE; x++) {
-            double values[GN_FACT_COUNT + 3];
+            double values[GN_FACT_COUNT + LOADS];
 
             memcpy(values, j->values, sizeof values);
             values[j->surface_facts[0]] = of.low[0] + (of.high[0] - of.low[0]) * x / (SIDE - 1);

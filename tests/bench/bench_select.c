@@ -53,7 +53,7 @@ static double decide_us(gn_context *context, uint32_t count)
     memset(asked.possible.keeps, 0xff, sizeof asked.possible.keeps);
     memset(lights, 0, sizeof lights);
     for (uint32_t i = 0; i < count; i++) {
-        lights[i].load = (gn_load){4000, 200000.0 + 10000.0 * i, 100000};
+        lights[i].load = (gn_load){4000, 200000.0 + 10000.0 * i, 100000, 100000};
         lights[i].facts = (gn_facts){count, 1, 2, 3000, 900, 0.3, 0.2, 0.5, 0.5};
         lights[i].importance = i;
     }

@@ -12,7 +12,7 @@ typedef enum algorithm { SUBDIVISION, HYBRID, MAPPING } algorithm;
 static algorithm choose(gn_rules *rules, double moving, double nearness)
 {
     gn_light_state light = {.facts = {.lights = 16, .moving = moving, .nearness = nearness, .motion = 0.2},
-                            .load = {3000, 200000, 100000}};
+                            .load = {3000, 200000, 100000, 100000}};
     gn_selection s = {.rules = rules, .target_pixels = 300000, .prefers = 1, .lights = &light, .light_count = 1};
     gn_knowledge knowledge;
     gn_choice choice;

@@ -55,6 +55,7 @@ static void make_world(world *w)
         l->facts.moving = test_random(&seed) % 2;
         l->load.indices = power_of_ten(1, 5);
         l->load.fragments = power_of_ten(2, 7);
+        l->load.borders = power_of_ten(2, 6);
         l->load.pixels = power_of_ten(2, 6);
         l->importance = test_random(&seed) % 3;
     }
@@ -326,26 +327,26 @@ static void takes_no_liberties(void **state)
 }
 
 #define KNOWLEDGE                                                                                                      \
-    "method,scale,upsample,accuracy,us_setup,us_index,us_fragment,us_pixel,us_switch,bytes_setup,bytes_index,"         \
-    "bytes_fragment,bytes_pixel,bytes_switch\n"
+    "method,scale,upsample,accuracy,us_setup,us_index,us_fragment,us_border,us_pixel,us_switch,bytes_setup,"           \
+    "bytes_index,bytes_fragment,bytes_border,bytes_pixel,bytes_switch\n"
 
 static void reads_knowledge(void **state)
 {
     static const struct {
         const char *rows, *message;
     } refused[] = {
-        {"zfail,1,none,exact,1,1,1,1,1,1,1,1,1,1\n", "line 2, column 1: there is no such way (zfail, 1, none)"},
-        {"stencil,3,bilinear,exact,1,1,1,1,1,1,1,1,1,1\n", "there is no such way (stencil, 3, bilinear)"},
-        {"stencil,1,none,perfect,1,1,1,1,1,1,1,1,1,1\n", "accuracy is none, rough, fair, fine or exact (perfect)"},
-        {"stencil,1,none,exact,1,-1,1,1,1,1,1,1,1,1\n", "line 2, column 24: a cost is not negative (-1)"},
-        {"stencil,1,none,exact,1,1,1,1,1,1,1,1,1\n", "line 3, column 1: , is missing at the end"},
-        {"stencil,1,none,exact,1,1,1,1,1,1,1,1,1,1\nstencil,1,none,exact,1,1,1,1,1,1,1,1,1,1\n",
+        {"zfail,1,none,exact,1,1,1,1,1,1,1,1,1,1,1,1\n", "line 2, column 1: there is no such way (zfail, 1, none)"},
+        {"stencil,3,bilinear,exact,1,1,1,1,1,1,1,1,1,1,1,1\n", "there is no such way (stencil, 3, bilinear)"},
+        {"stencil,1,none,perfect,1,1,1,1,1,1,1,1,1,1,1,1\n", "accuracy is none, rough, fair, fine or exact (perfect)"},
+        {"stencil,1,none,exact,1,-1,1,1,1,1,1,1,1,1,1,1\n", "line 2, column 24: a cost is not negative (-1)"},
+        {"stencil,1,none,exact,1,1,1,1,1,1,1,1,1,1,1\n", "line 3, column 1: , is missing at the end"},
+        {"stencil,1,none,exact,1,1,1,1,1,1,1,1,1,1,1,1\nstencil,1,none,exact,1,1,1,1,1,1,1,1,1,1,1,1\n",
          "line 3, column 1: this way has a row already"},
-        {"stencil,1,none,exact,1,x,1,1,1,1,1,1,1,1\n", "a number is missing ('x')"},
+        {"stencil,1,none,exact,1,x,1,1,1,1,1,1,1,1,1,1\n", "a number is missing ('x')"},
     };
-    static const char good[] =
-        KNOWLEDGE "stencil,1,none,exact,1,2.5,3e-3,4,5,6,7,8,9,10\nrefine,2,bilinear,fine,1,1,1,1,1,1,1,1,1,1\n"
-                  "count,4,depth,rough,1,1,1,1,1,1,1,1,1,1\n";
+    static const char good[] = KNOWLEDGE
+        "stencil,1,none,exact,1,2.5,3e-3,4,5,6,7,8,9,10,11,12\nrefine,2,bilinear,fine,1,1,1,1,1,1,1,1,1,1,1,1\n"
+        "count,4,depth,rough,1,1,1,1,1,1,1,1,1,1,1,1\n";
     gn_knowledge k;
     int known = 0;
 
@@ -357,7 +358,7 @@ static void reads_knowledge(void **state)
     assert_int_equal(known, 3);
     assert_true(k.ways[GN_METHOD_STENCIL][GN_VARIANT_FULL].us[GN_COST_INDEX] == 2.5);
     assert_true(fabs(k.ways[GN_METHOD_STENCIL][GN_VARIANT_FULL].us[GN_COST_FRAGMENT] - 3e-3) < 1e-18);
-    assert_true(k.ways[GN_METHOD_STENCIL][GN_VARIANT_FULL].bytes[GN_COST_SWITCH] == 10.0);
+    assert_true(k.ways[GN_METHOD_STENCIL][GN_VARIANT_FULL].bytes[GN_COST_SWITCH] == 12.0);
     assert_int_equal(k.ways[GN_METHOD_COUNT][GN_VARIANT_QUARTER_DEPTH].accuracy, GN_ACCURACY_ROUGH);
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         char text[1024];

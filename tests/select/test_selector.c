@@ -22,7 +22,7 @@ static void open_bed(bed *b, uint32_t light_count)
     gn_knowledge_default(&b->knowledge);
     b->light_count = light_count;
     for (uint32_t i = 0; i < light_count; i++) {
-        b->lights[i].load = (gn_load){5000, 100000, 40000};
+        b->lights[i].load = (gn_load){5000, 100000, 50000, 40000};
         b->lights[i].facts.motion = 0.2;
         b->lights[i].importance = 1.0 / (i + 1);
     }
@@ -39,16 +39,14 @@ static void start(bed *b)
 static double cost_ms(const bed *b, uint32_t light)
 {
     const gn_way *way = &b->ways[light];
-    const double area = way->method == GN_METHOD_REFINE ? 1.0 : (double)way->scale * way->scale;
-    const gn_load *load = &b->lights[light].load;
-    const double *us;
+    double counts[GN_COST_COUNT], sum = 0.0;
 
     if (way->is_dropped)
         return 0.0;
-    us = b->knowledge.ways[way->method][gn_way_variant(way)].us;
-    return (us[GN_COST_SETUP] + us[GN_COST_INDEX] * load->indices + us[GN_COST_FRAGMENT] * load->fragments / area +
-            us[GN_COST_PIXEL] * load->pixels / area + 2.0 * us[GN_COST_SWITCH]) /
-           1000.0;
+    gn_count_costs(way, &b->lights[light].load, counts);
+    for (int c = 0; c < GN_COST_COUNT; c++)
+        sum += b->knowledge.ways[way->method][gn_way_variant(way)].us[c] * counts[c];
+    return sum / 1000.0;
 }
 
 /* Frames that take what is known, and so much for the host. */
@@ -164,7 +162,7 @@ static void importance_that_changes_is_followed(void **state)
     (void)state;
     open_bed(&b, 2);
     for (int i = 0; i < 2; i++)
-        b.lights[i].load = (gn_load){5000, 900000, 40000};
+        b.lights[i].load = (gn_load){5000, 900000, 300000, 40000};
     for (double budget = 10.0; budget < 20.0; budget += 0.25) { /* one of them is exact, and not the other */
         b.asked.budget.frame_ms = budget;
         start(&b);

@@ -87,7 +87,7 @@ static double true_ms(const gn_selection *board, const gn_way *ways, int *accura
         const struct gn_known_way *known;
         const gn_load *load = &board->lights[i].load;
         const gn_way *way = &ways[i];
-        const double area = way->method == GN_METHOD_REFINE ? 1.0 : (double)way->scale * way->scale;
+        double counts[GN_COST_COUNT];
 
         if (way->is_dropped) {
             *accuracy = GN_ACCURACY_NONE;
@@ -95,11 +95,10 @@ static double true_ms(const gn_selection *board, const gn_way *ways, int *accura
         }
         known = &board->knowledge->ways[way->method][gn_way_variant(way)];
         *accuracy = (int)known->accuracy < *accuracy ? (int)known->accuracy : *accuracy;
-        sum += board->gains[way->method] *
-               ((is_first(ways, i) ? known->us[GN_COST_SETUP] : 0.0) + known->us[GN_COST_INDEX] * load->indices +
-                known->us[GN_COST_FRAGMENT] * load->fragments / area + known->us[GN_COST_PIXEL] * load->pixels / area +
-                known->us[GN_COST_SWITCH] * (way->method == GN_METHOD_STENCIL && way->scale == 1 ? 1.0 : 2.0)) /
-               1000.0;
+        gn_count_costs(way, load, counts);
+        counts[GN_COST_SETUP] = is_first(ways, i);
+        for (int c = 0; c < GN_COST_COUNT; c++)
+            sum += board->gains[way->method] * known->us[c] * counts[c] / 1000.0;
     }
     return sum;
 }
@@ -129,7 +128,8 @@ static void make_knowledge(gn_knowledge *k)
             const double reads = v == GN_VARIANT_FULL ? 0.0
                                  : v % 2              ? 1.0
                                                       : 3.0; /* of the mask, by the frame's pixels */
-            const double us[GN_COST_COUNT] = {200, 0.02, 0.01 * times[m], 0.02 + 0.01 * reads * scale * scale, 100};
+            const double us[GN_COST_COUNT] = {200, 0.02, 0.01 * times[m], 0.0, 0.02 + 0.01 * reads * scale * scale,
+                                              100};
 
             memcpy(k->ways[m][v].us, us, sizeof us);
         }

@@ -9,6 +9,7 @@
 
 enum { ROUNDS = 2000 };
 #define SPREAD 0.5 /* of coefficients about what is likely */
+#define OFF    0.2 /* by which rows are off at least, whatever the few at hand say */
 
 void fit_costs(const double (*a)[FIT_MOST], const double *b, int rows, int columns, const double *likely, double *x)
 {
@@ -26,7 +27,7 @@ void fit_costs(const double (*a)[FIT_MOST], const double *b, int rows, int colum
                 normal[k][j] += a[i][k] * likely[k] * a[i][j] * likely[j] / (expected * expected);
         }
     }
-    draws = fmax(off, 1e-4) / (SPREAD * SPREAD);
+    draws = fmax(off, OFF * OFF) / (SPREAD * SPREAD);
     for (int k = 0; k < columns; k++) {
         right[k] += draws;
         normal[k][k] += draws;
