@@ -1,6 +1,7 @@
 # gnomon. `make help` lists the targets.
 #
 # VARIANT: release debug asan size. CROSS: a board's compiler prefix (arm-linux-gnueabihf-).
+# FONT: what the viewer writes with.
 # HOST_CC: what compiles for where the build runs, also when it is for a board.
 # V=1 shows whole commands. CC, CFLAGS, CPPFLAGS, LDFLAGS, AR, PKG_CONFIG, PREFIX, DESTDIR mean what they mean everywhere.
 VARIANT    ?= release
@@ -8,6 +9,7 @@ CROSS      ?=
 PREFIX     ?= /usr/local
 PKG_CONFIG ?= pkg-config
 HOST_CC    ?= cc
+FONT       ?= /usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf
 PYTHON     ?= python3
 
 ifeq ($(origin CC),default)
@@ -34,7 +36,7 @@ INC_port      := -Iport
 INC_core      := $(INC_port) -Icore -I$(B)/rules
 INC_gles      := $(INC_core) -Igles -I$(B)/gles
 INC_platforms := -Iplatforms
-INC_tools      = -D_POSIX_C_SOURCE=200809L $(INC_core) -Igles -Iplatforms -Itools -Itools/scene -Itools/truth -Itools/stage -Itools/measure -Itools/calibrate -I$(B)/tools/stage $(shell $(PKG_CONFIG) --cflags libcjson libpng)
+INC_tools      = -D_POSIX_C_SOURCE=200809L $(INC_core) -Igles -Iplatforms -Itools -Itools/scene -Itools/truth -Itools/stage -Itools/measure -Itools/calibrate -Itools/view -I$(B)/tools/stage -I$(B)/tools/view $(shell $(PKG_CONFIG) --cflags libcjson libpng)
 INC_tests      = $(INC_tools) -Itests/support $(shell $(PKG_CONFIG) --cflags cmocka)
 INCLUDE        = $(INC_$(firstword $(subst /, ,$<)))
 
@@ -44,9 +46,9 @@ TEST_LIBS  = $(shell $(PKG_CONFIG) --libs cmocka) $(TOOL_LIBS)
 Q       := $(if $(V),,@)
 objects  = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)))
 LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c gles/*/*.c)
-TOOLS   := $(filter-out $(B)/tools/main.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
+TOOLS   := $(filter-out $(B)/tools/main.o %/bake_font.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
 SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
-SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/* rules/default.fcl))
+SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/* tools/view/shaders/* rules/default.fcl)) $(B)/tools/view/font.h
 COMPILER := rules/compile.c core/rules.c core/rules_about.c core/scan.c core/slices.c core/fuzzy.c core/context.c port/port_libc.c $(wildcard core/*.h)
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
 BENCHES := $(patsubst %.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
@@ -179,6 +181,13 @@ build/host/compile_rules: $(COMPILER)
 	@mkdir -p $(@D)
 	@echo "  host  $@"
 	$(Q)$(HOST_CC) -std=c99 -O1 -Iport -Icore $(filter %.c,$^) -lm -o $@
+build/host/bake_font: tools/view/bake_font.c
+	@mkdir -p $(@D)
+	@echo "  host  $@"
+	$(Q)$(HOST_CC) -std=c99 -O1 $(shell pkg-config --cflags freetype2) $< $(shell pkg-config --libs freetype2) -o $@
+$(B)/tools/view/font.h: build/host/bake_font $(FONT)
+	@mkdir -p $(@D)
+	@build/host/bake_font $(FONT) > $@.part && mv $@.part $@
 $(B)/rules/%.fcl.h: rules/%.fcl build/host/compile_rules
 	@mkdir -p $(@D)
 	@build/host/compile_rules < $< > $@.part && mv $@.part $@
@@ -193,7 +202,7 @@ $(SCENES): $(wildcard tests/scenes/*.py)
 
 # `make deps demo` on a bare machine: nothing is built before what builds it is there.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) build/host/compile_rules $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table) headers layers check-build: | deps
+$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) build/host/compile_rules build/host/bake_font $(FONT) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table) headers layers check-build: | deps
 endif
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

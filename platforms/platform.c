@@ -9,9 +9,10 @@
 #include <malloc.h>
 #endif
 
-extern const platform_kind platform_egl, platform_osmesa;
+extern const platform_kind platform_egl, platform_osmesa, platform_glfw, platform_glfw_native, platform_glfw_osmesa;
 
-const platform_kind *const platform_kinds[] = {&platform_egl, &platform_osmesa, NULL};
+const platform_kind *const platform_kinds[] = {&platform_egl,         &platform_osmesa,      &platform_glfw,
+                                               &platform_glfw_native, &platform_glfw_osmesa, NULL};
 
 static void keep_memory(void)
 {

@@ -35,7 +35,9 @@ int command_methods(int count, char **arguments);
 int command_measure(int count, char **arguments);
 int command_calibrate(int count, char **arguments);
 int command_select(int count, char **arguments);
+int command_view(int count, char **arguments);
 
 /* The text of --help of each. */
-extern const char help_render[], help_probe[], help_methods[], help_measure[], help_calibrate[], help_select[];
+extern const char help_render[], help_probe[], help_methods[], help_measure[], help_calibrate[], help_select[],
+    help_view[];
 #endif

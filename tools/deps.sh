@@ -26,6 +26,11 @@ need libegl1 library libEGL.so.1
 need libgles2 library libGLESv2.so.2
 need libgl1-mesa-dri sh -c 'ls /usr/lib/*/dri/swrast_dri.so'
 need libosmesa6 library libOSMesa.so
+need libglfw3-dev header GLFW/glfw3.h
+need libglfw3 library libglfw.so.3
+need libfreetype-dev sh -c 'pkg-config --exists freetype2'
+need fonts-dejavu-core test -e /usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf
+need xvfb command -v Xvfb
 need gnuplot-nox command -v gnuplot
 need chromium command -v chromium
 need python3-skimage /usr/bin/python3 -c "import skimage"

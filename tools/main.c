@@ -47,6 +47,8 @@ static const struct {
     const char *help, *summary;
 } commands[] = {
     {"render", command_render, help_render, "draw a glTF scene with shadows into a picture"},
+    {"view", command_view, help_view,
+     "a scene in a window: walk round it, drag its lights, switch and compare methods"},
     {"probe", command_probe, help_probe, "what the GL contexts of this machine are and can do"},
     {"measure", command_measure, help_measure, "what each method costs here, and how far from the truth it is"},
     {"calibrate", command_calibrate, help_calibrate,

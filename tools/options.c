@@ -135,3 +135,20 @@ int check_hidden(const char *from, const char *names)
         say("%s: no capability has that name: see `gnomon probe` (%s)", from, unknown);
     return !unknown;
 }
+
+int check_small(long scale, const char *name, gn_upsample *upsample)
+{
+    static const char *const names[] = {"nearest", "bilinear", "depth"};
+
+    if (scale != 1 && scale != 2 && scale != 4) {
+        say("--scale: takes 1, 2 or 4 (%ld)", scale);
+        return 0;
+    }
+    for (int i = 0; i < 3; i++)
+        if (strcmp(name, names[i]) == 0) {
+            *upsample = (gn_upsample)i;
+            return 1;
+        }
+    say("--upsample: takes nearest, bilinear or depth (%s)", name);
+    return 0;
+}

@@ -1,6 +1,7 @@
 /* options.h - long options in the GNU manner, in any order: `--name value`, `--name=value`, `--` ends them. */
 #ifndef OPTIONS_H
 #define OPTIONS_H
+#include "gn_plan.h"
 
 typedef enum option_kind {
     OPTION_TEXT,
@@ -32,4 +33,7 @@ int parse_options(int count, char **arguments, const option *options, int option
 
 /* 1 when a list of capabilities to hide names none that is not there; else 0, having said so. from: who gave it. */
 int check_hidden(const char *from, const char *names);
+
+/* The same of a scale and of an upsampling's name, which becomes *upsample. */
+int check_small(long scale, const char *name, gn_upsample *upsample);
 #endif

@@ -3,13 +3,12 @@
 #define _POSIX_C_SOURCE 200809L
 #include "command.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "mask_files.h"
 #include "options.h"
 #include "picture.h"
 #include "render_adaptive.h"
@@ -32,7 +31,7 @@ const char help_render[] =
     "  --shade HOW           additive: lights are added to ambient; attenuate: shadows dim a lit frame; black "
     "[additive]\n"
     "  --bits R,G,B,A,D,S    of the target, as near as the platform has [8,8,8,8,24,8]\n"
-    "  --platform NAME       egl or osmesa [the first that works]\n"
+    "  --platform NAME       egl, osmesa or glfw [the first that works]\n"
     "  --hide CAP[,CAP...]   pretends that capabilities are absent: `gnomon probe` names them\n"
     "  --explain             prints why each light got its method, and each caster its case\n"
     "  --soft N:RADIUS       area lights: N jittered lights within RADIUS in place of each [1:0]\n"
@@ -84,58 +83,6 @@ static int write_frame(stage *s, const char *path)
     ok = ok && write_png(path, rgb, s->target.width, s->target.height, 3);
     free(rgb);
     return ok;
-}
-
-static int write_mask(stage *s, const char *dir, uint32_t light)
-{
-    const size_t pixels = (size_t)s->target.width * s->target.height, length = strlen(dir) + 40;
-    uint8_t *lit = malloc(pixels), *visible = malloc(pixels), *both = malloc(2 * pixels);
-    char *path = malloc(length);
-    int ok = lit && visible && both && path && read_mask(s, lit, visible);
-
-    if (!ok)
-        say("%s: the mask of light %u cannot be read back", dir, (unsigned)light);
-    for (size_t i = 0; ok && i < pixels; i++) {
-        both[2 * i] = lit[i];
-        both[2 * i + 1] = visible[i];
-    }
-    if (ok) {
-        snprintf(path, length, "%s/light%u.png", dir, (unsigned)light);
-        ok = write_png(path, both, s->target.width, s->target.height, 2);
-    }
-    free(path);
-    free(lit);
-    free(visible);
-    free(both);
-    return ok;
-}
-
-static int write_masks(stage *s, const job *j, char message[SCENE_MESSAGE])
-{
-    if (mkdir(j->mask_dir, 0777) != 0 && errno != EEXIST) {
-        say("%s: cannot be made: %s", j->mask_dir, strerror(errno));
-        return EXIT_FAILED;
-    }
-    for (uint32_t i = 0; i < s->scene->light_count; i++) {
-        const stage_wish wish = {.method = j->method,
-                                 .one_sided = j->one_sided,
-                                 .casting = 1,
-                                 .first_light = i,
-                                 .light_count = 1,
-                                 .unbounded = 1,
-                                 .scale = (uint32_t)j->scale,
-                                 .upsample = j->upsample,
-                                 .sharpen = j->sharpen};
-        const int status = stage_plan(s, &wish, message);
-
-        if (status != 0 || !stage_draw_mask(s, i, message)) {
-            say("light %u: %s", (unsigned)i, message);
-            return status ? status : EXIT_FAILED;
-        }
-        if (!write_mask(s, j->mask_dir, i))
-            return EXIT_FAILED;
-    }
-    return EXIT_DONE;
 }
 
 static int write_plan(const stage *s, const char *path)
@@ -305,7 +252,7 @@ static void warn(const stage *s)
             say("%s", text);
 }
 
-static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE_MESSAGE])
+static int write_outputs(stage *s, const job *j, measured *m)
 {
     if (j->explain)
         explain(s);
@@ -336,7 +283,16 @@ static int write_outputs(stage *s, const job *j, measured *m, char message[SCENE
         say("the GL reports an error");
         return EXIT_FAILED;
     }
-    return j->mask_dir ? write_masks(s, j, message) : EXIT_DONE;
+    if (j->mask_dir) {
+        const stage_wish like = {.method = j->method,
+                                 .one_sided = j->one_sided,
+                                 .scale = (uint32_t)j->scale,
+                                 .upsample = j->upsample,
+                                 .sharpen = j->sharpen};
+
+        return write_masks(s, &like, j->mask_dir);
+    }
+    return EXIT_DONE;
 }
 
 static int run(const job *j, const char *path)
@@ -380,7 +336,7 @@ static int run(const job *j, const char *path)
     else if (is_adaptive(j))
         status = run_adaptively(s, j);
     else
-        status = write_outputs(s, j, &m, message);
+        status = write_outputs(s, j, &m);
     free(m.ms.frame);
     free(m.ms.same_passes);
     free(m.ms.one_pass);
@@ -427,23 +383,6 @@ static int parse_bits(job *j)
         at = end + 1;
     }
     return 1;
-}
-
-static int parse_upsample(job *j)
-{
-    static const char *const names[] = {"nearest", "bilinear", "depth"};
-
-    if (j->scale != 1 && j->scale != 2 && j->scale != 4) {
-        say("--scale: takes 1, 2 or 4 (%ld)", j->scale);
-        return 0;
-    }
-    for (int i = 0; i < 3; i++)
-        if (strcmp(j->upsample_name, names[i]) == 0) {
-            j->upsample = (gn_upsample)i;
-            return 1;
-        }
-    say("--upsample: takes nearest, bilinear or depth (%s)", j->upsample_name);
-    return 0;
 }
 
 static int parse_shade(job *j)
@@ -566,7 +505,8 @@ int command_render(int count, char **arguments)
     }
     if (!check_hidden("--hide", j.hide) || !check_hidden("GNOMON_HIDE", getenv("GNOMON_HIDE")))
         return EXIT_USAGE;
-    if (!parse_bits(&j) || !parse_shade(&j) || !parse_upsample(&j) || !check_adaptive(&j))
+    if (!parse_bits(&j) || !parse_shade(&j) || !check_small(j.scale, j.upsample_name, &j.upsample) ||
+        !check_adaptive(&j))
         return EXIT_USAGE;
     if (j.soft && !parse_soft(&j))
         return EXIT_USAGE;

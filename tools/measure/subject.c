@@ -6,7 +6,6 @@
 #include "command.h"
 #include "picture.h"
 #include "trial.h"
-#include "truth.h"
 
 #define FULL                                                                                                           \
     2 /* lights that may be as bright as white together: of more each is less, so that pictures are not all white */
@@ -68,35 +67,8 @@ int subject_keeps(const subject *s)
     return d->update_every > 1 || d->update_distance > 0.0 || d->masks_every > 1;
 }
 
-/* The truth knows no lists: what is exempt in a light casts not while that light is traced. common: of lights without;
- * made when it is first needed. */
-static int trace_light(subject *s, const truth_options *options, uint32_t light, truth **common, truth_mask *m,
-                       char message[SCENE_MESSAGE])
-{
-    const scene_light *l = &s->loaded.lights[light];
-    int *casts = malloc((l->exempt_count + 1) * sizeof *casts), ok = 0;
-    truth *own = NULL;
-
-    for (size_t i = 0; casts && i < l->exempt_count; i++) {
-        casts[i] = s->loaded.instances[l->exempt[i]].casts;
-        s->loaded.instances[l->exempt[i]].casts = 0;
-    }
-    if (casts && l->exempt_count)
-        own = truth_create(&s->loaded, options, message);
-    else if (casts && !*common)
-        *common = truth_create(&s->loaded, options, message);
-    for (size_t i = l->exempt_count; casts && i-- > 0;) /* backwards: one may stand twice */
-        s->loaded.instances[l->exempt[i]].casts = casts[i];
-    if (own || (casts && !l->exempt_count && *common))
-        ok = truth_light(own ? own : *common, light, m->lit, m->visible, m->classes, message);
-    truth_free(own);
-    free(casts);
-    return ok;
-}
-
 static int trace_frame(subject *s, uint32_t frame, void (*progress)(void), char message[SCENE_MESSAGE])
 {
-    const size_t pixels = (size_t)s->stage->target.width * s->stage->target.height;
     const truth_options options = {
         s->stage->target.width, s->stage->target.height, s->stage->target.depth_bits, {0, 0}};
     truth *common = NULL;
@@ -104,17 +76,9 @@ static int trace_frame(subject *s, uint32_t frame, void (*progress)(void), char 
 
     subject_pose(s, frame);
     for (uint32_t light = 0; ok && light < s->lights; light++) {
-        truth_mask *m = &s->truths[(size_t)frame * s->lights + light];
-
         progress();
-        snprintf(message, SCENE_MESSAGE, "no memory for the truth");
-        m->lit = malloc(3 * pixels);
-        ok = m->lit != NULL;
-        if (!ok)
-            break;
-        m->visible = m->lit + pixels;
-        m->classes = m->lit + 2 * pixels;
-        ok = trace_light(s, &options, light, &common, m, message);
+        ok = true_mask_trace(&s->truths[(size_t)frame * s->lights + light], &s->loaded, &options, light, &common,
+                             message);
     }
     truth_free(common);
     return ok;
@@ -195,7 +159,7 @@ int subject_open(subject *s, const subject_desc *d)
 void subject_close(subject *s)
 {
     for (size_t i = 0; s->truths && i < (size_t)s->frames * s->lights; i++)
-        free(s->truths[i].lit);
+        true_mask_free(&s->truths[i]);
     free(s->truths);
     free(s->surfaces);
     if (s->stage)

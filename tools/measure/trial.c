@@ -150,7 +150,7 @@ static int measure_frame(subject *s, const config *c, uint32_t lights, uint32_t 
 static int measure_mask(subject *s, const config *c, uint32_t light, uint32_t frame, uint8_t *lit, const uint8_t *last,
                         uint8_t *visible, trial *out, char message[SCENE_MESSAGE])
 {
-    const truth_mask *t = &s->truths[(size_t)frame * s->lights + light];
+    const true_mask *t = &s->truths[(size_t)frame * s->lights + light];
     const uint32_t width = s->stage->target.width, height = s->stage->target.height;
     const mask_pair pair = {width, height, lit, t->lit, t->visible, t->classes};
     stage_wish wish = wish_for(s, c, 1);
@@ -182,7 +182,7 @@ static int measure_mask(subject *s, const config *c, uint32_t light, uint32_t fr
     out->boundary_f[1] += m.boundary_f[1];
     out->distance95 += m.distance95;
     if (frame > 0) {
-        const truth_mask *before = t - s->lights;
+        const true_mask *before = t - s->lights;
         const mask_pair pair_before = {width, height, last, before->lit, before->visible, NULL};
 
         out->flicker += mask_flicker(&pair_before, &pair);

@@ -7,6 +7,7 @@
 #include "frame_clock.h"
 #include "spread.h"
 #include "stage.h"
+#include "true_mask.h"
 
 typedef struct config {
     char name[48]; /* of the three: "count", "count@1/2-bilinear" */
@@ -23,11 +24,6 @@ typedef struct camera_path {
     uint32_t count;
 } camera_path;
 
-/* One light in one frame. */
-typedef struct truth_mask {
-    uint8_t *lit, *visible, *classes;
-} truth_mask;
-
 /* What is spared, besides method and resolution; and how lights turn, so that it matters. All 0: nothing. */
 typedef struct shortcuts {
     double spin;       /* degrees a frame, of every light about the vertical axis */
@@ -43,8 +39,8 @@ typedef struct subject {
     uint32_t frames, lights; /* lights: of the scene, or the most that are asked for */
     shortcuts spared;
     frame_clock clock;
-    truth_mask *truths; /* [frames][lights] */
-    uint8_t *surfaces;  /* [frames][lights + 1][pixels][3]: ambient light alone, and with it each light, unshadowed */
+    true_mask *truths; /* [frames][lights] */
+    uint8_t *surfaces; /* [frames][lights + 1][pixels][3]: ambient light alone, and with it each light, unshadowed */
 } subject;
 
 /* How to open one. */

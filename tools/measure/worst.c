@@ -58,7 +58,7 @@ static void put_difference(uint8_t *row, const uint8_t *lit, const uint8_t *righ
 int worst_write(subject *s, const config *c, const trial *t, const char *path)
 {
     const uint32_t width = s->stage->target.width, height = s->stage->target.height, gap = 4, row = 3 * width + 2 * gap;
-    const truth_mask *truth = &s->truths[(size_t)t->worst_frame * s->lights + t->worst_light];
+    const true_mask *true_one = &s->truths[(size_t)t->worst_frame * s->lights + t->worst_light];
     const stage_wish wish = {.method = c->method,
                              .one_sided = c->one_sided,
                              .casting = 1,
@@ -86,9 +86,9 @@ int worst_write(subject *s, const config *c, const trial *t, const char *path)
         uint8_t *const out = picture + (size_t)3 * row * y;
 
         memset(out, 255, (size_t)3 * row);
-        put_mask(out, lit + at, truth->visible + at, width);
-        put_mask(out + (size_t)3 * (width + gap), truth->lit + at, truth->visible + at, width);
-        put_difference(out + (size_t)6 * (width + gap), lit + at, truth->lit + at, truth->visible + at, width);
+        put_mask(out, lit + at, true_one->visible + at, width);
+        put_mask(out + (size_t)3 * (width + gap), true_one->lit + at, true_one->visible + at, width);
+        put_difference(out + (size_t)6 * (width + gap), lit + at, true_one->lit + at, true_one->visible + at, width);
     }
     ok = ok && write_png(path, picture, row, height, 3);
     free(lit);

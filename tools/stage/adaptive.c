@@ -192,6 +192,8 @@ static int draw_part(adaptive *a, const stage_wish *like, uint32_t first, uint8_
     if (stage_plan(a->stage, &wish, message) != 0 || !stage_draw_lit(a->stage, 0, message))
         return 0;
     a->plans++;
+    a->traffic.written += a->stage->plan->traffic.written;
+    a->traffic.read += a->stage->plan->traffic.read;
     if (!way->is_dropped)
         note_part(a, members, count, way->proxies ? 2.0 : 1.0); /* as the selector takes proxies to spare a half */
     return 1;
@@ -210,6 +212,7 @@ int adaptive_draw(adaptive *a, const stage_wish *like, uint32_t light_count, cha
     for (uint32_t i = 1; i < light_count && a->is_uniform; i++)
         a->ways[i] = a->ways[0];
     a->plans = 0;
+    memset(&a->traffic, 0, sizeof a->traffic);
     for (uint32_t i = 0; i < light_count; i++)
         if (!drawn[i] && !draw_part(a, like, i, drawn, light_count, message))
             return 0;

@@ -24,8 +24,9 @@ typedef struct adaptive {
     size_t object_count;
     uint32_t light_count; /* of the last frame; 0: there was none */
     int is_uniform;       /* no way can follow another here: all lights take the first's */
-    uint32_t plans;       /* of the last frame */
-    uint32_t frames;      /* so far */
+    uint32_t plans;       /* of the last frame, and their traffic */
+    gn_traffic traffic;
+    uint32_t frames; /* so far */
 } adaptive;
 
 /* 0, or an exit status of the command with a message. */

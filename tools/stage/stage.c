@@ -115,7 +115,8 @@ int stage_open(stage **out, scene *given, const stage_options *options, char mes
     if (result == GN_OK)
         result = gn_gles_create(s->context, &desc, &s->gles);
     if (result == GN_OK)
-        result = gn_gles_describe_target(s->gles, options->width, options->height, NULL, &s->target);
+        result =
+            gn_gles_describe_target(s->gles, s->platform->actual.width, s->platform->actual.height, NULL, &s->target);
     if (result != GN_OK) {
         snprintf(message, SCENE_MESSAGE, "%s", gn_message(s->context));
         return refuse(out, s, result == GN_E_DEVICE ? 3 : 1);
@@ -218,8 +219,29 @@ static void pose_light(stage *s, size_t index, double degrees)
 void stage_pose(stage *s, double seconds, double spin_degrees)
 {
     scene_pose(s->scene, seconds);
+    stage_place_lights(s, spin_degrees);
+}
+
+void stage_place_lights(stage *s, double spin_degrees)
+{
     for (size_t i = 0; i < s->scene->light_count; i++)
         pose_light(s, i, spin_degrees);
+}
+
+int stage_resize(stage *s, char message[SCENE_MESSAGE])
+{
+    const platform_desc *now = &s->platform->actual;
+    const size_t length = gn_gles_save_target(s->gles, &s->target, NULL, 0);
+    char *saved = malloc(length + 1); /* what was proven of the target is proven of another size */
+    gn_result result = GN_E_MEMORY;
+
+    if (saved) {
+        gn_gles_save_target(s->gles, &s->target, saved, length + 1);
+        result = gn_gles_describe_target(s->gles, now->width, now->height, saved, &s->target);
+    }
+    snprintf(message, SCENE_MESSAGE, "%s", saved ? gn_message(s->context) : "stage: no memory");
+    free(saved);
+    return result == GN_OK;
 }
 
 static void place_camera(const stage *s, gn_camera *camera)

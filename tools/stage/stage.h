@@ -119,6 +119,11 @@ int stage_renew_cache(stage *s);
  * centre. */
 void stage_pose(stage *s, double seconds, double spin_degrees);
 
+/* Lights alone, as they stand in the scene: after they were moved there. */
+void stage_place_lights(stage *s, double spin_degrees);
+/* The target is of another size, the platform's. 1, or 0 with a message. */
+int stage_resize(stage *s, char message[SCENE_MESSAGE]);
+
 /* What to plan. casting 0: the same passes, and no volumes. */
 typedef struct stage_wish {
     gn_method method;
