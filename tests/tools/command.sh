@@ -5,42 +5,23 @@ build=$1
 gnomon=$build/gnomon
 scenes=build/scenes
 tmp=$build/command
-failed=0
 rm -rf "$tmp"
 mkdir -p "$tmp"
+. tests/tools/checks.sh
 
-ok() { # what, then a command that must succeed
-    what=$1
-    shift
-    if "$@" > "$tmp/out" 2>&1; then echo "ok $what"; else echo "not ok $what"; sed 's/^/    /' "$tmp/out" | head -n 5; failed=1; fi
-}
-# status, words of the message, arguments
-refuses() {
-    status=$1 words=$2
-    shift 2
-    "$gnomon" "$@" > "$tmp/out" 2> "$tmp/err"
-    got=$?
-    if [ $got = "$status" ] && [ "$(wc -l < "$tmp/err")" = 1 ] && grep -q "^gnomon: .*$words" "$tmp/err" && [ ! -s "$tmp/out" ]; then
-        echo "ok refuses: $*"
-    else
-        echo "not ok refuses: $* (status $got, wanted $status with '$words')"
-        sed 's/^/    /' "$tmp/err"
-        failed=1
-    fi
-}
 has() { grep -q "$2" "$1"; }
 is_png() { [ "$(head -c 4 "$1" | od -An -tx1 | tr -d ' ')" = 89504e47 ]; }
 numbers() { sed -n 's/.*"\('"$2"'\)":[^0-9]*\([0-9.]*\).*/\2/p' "$1" | head -n 1; }
 
 ok "--version" sh -c "$gnomon --version | grep -qE '^gnomon [0-9]+\.[0-9]+\.[0-9]+$'"
-for command in render probe methods; do
+for command in render view probe methods measure calibrate select; do
     ok "help $command" sh -c "$gnomon help $command | grep -q 'usage: gnomon $command'"
     ok "$command --help" sh -c "[ \"\$($gnomon $command --help)\" = \"\$($gnomon help $command)\" ]"
 done
 ok "help lists the commands" sh -c "$gnomon help | grep -q '  probe'"
 ok "methods lists zfail, zpass and stencil" sh -c "$gnomon methods | grep -q '^zfail  *exact' && $gnomon methods | grep -q '^zpass  *inexact' && $gnomon methods | grep -q '^stencil  *exact'"
 ok "probe names driver and methods" sh -c "$gnomon probe --platform egl | grep -q 'zfail  *possible'"
-ok "probe --json is JSON" sh -c "$gnomon probe --json | python3 -c 'import json, sys; assert len(json.load(sys.stdin)) == 2'"
+ok "probe --json is JSON" sh -c "$gnomon probe --json | python3 -c 'import json, sys; assert len(json.load(sys.stdin)) == 5'"
 ok "probe knows methods without a stencil" sh -c "[ \$($gnomon probe --platform egl --hide stencil | grep -cE '^  (count|signed|alpha|screen)  *possible; in ') = 4 ]"
 ok "probe says what is hidden" sh -c "$gnomon probe --platform egl --hide w0 | grep -qE '^  w0 +yes +no +yes'"
 ok "GNOMON_HIDE hides too" sh -c "GNOMON_HIDE=stencil $gnomon probe --platform egl | grep -q 'zfail .*needs stencil, which is hidden'"

@@ -5,27 +5,12 @@ build=$1
 gnomon=$build/gnomon
 tmp=$build/measure
 scene=build/scenes/colours.gltf
-failed=0
 rm -rf "$tmp"
 mkdir -p "$tmp"
+. tests/tools/checks.sh
 python=python3
 [ -x /usr/bin/python3 ] && python=/usr/bin/python3
 
-ok() { # what, then a command that must succeed
-    what=$1
-    shift
-    if "$@" > "$tmp/out" 2>&1; then echo "ok $what"; else echo "not ok $what"; sed 's/^/    /' "$tmp/out" | head -n 5; failed=1; fi
-}
-refuses() { # status, words of the message, arguments
-    status=$1 words=$2
-    shift 2
-    "$gnomon" measure "$@" > "$tmp/out" 2> "$tmp/err"
-    got=$?
-    if [ $got = "$status" ] && grep -q "^gnomon: .*$words" "$tmp/err"; then echo "ok refuses: $*"; else
-        echo "not ok refuses: $* (status $got, wanted $status with '$words')"
-        failed=1
-    fi
-}
 measure() { # directory, further options
     directory=$1
     shift
@@ -74,14 +59,14 @@ ok "late and welded shadows are farther from the truth" sh -c \
 printf '# eye, target\n2.6 2.9 4.6  0 0.4 0\n2.6, 2.9, 4.5, 0, 0.4, 0\n' > "$tmp/path.txt"
 ok "a path from a file" sh -c "$gnomon measure $scene -o $tmp/d --size 64x48 --frames 2 --methods stencil --scales 1 --camera-path $tmp/path.txt"
 printf '1 2 3 4 5\n' > "$tmp/bad.txt"
-refuses 1 "line 1 is no eye" "$scene" -o "$tmp/e" --camera-path "$tmp/bad.txt"
-refuses 2 "takes scenes and -o DIR" "$scene"
-refuses 2 "takes 1, 2 and 4 (3)" "$scene" -o "$tmp/e" --scales 3
-refuses 2 "no method has that name" "$scene" -o "$tmp/e" --methods zfial
-refuses 2 "takes WxH of 16 to 8192" "$scene" -o "$tmp/e" --size 8x8
-refuses 1 "none.gltf: No such file" build/scenes/none.gltf -o "$tmp/e"
+refuses 1 "line 1 is no eye" measure "$scene" -o "$tmp/e" --camera-path "$tmp/bad.txt"
+refuses 2 "takes scenes and -o DIR" measure "$scene"
+refuses 2 "takes 1, 2 and 4 (3)" measure "$scene" -o "$tmp/e" --scales 3
+refuses 2 "no method has that name" measure "$scene" -o "$tmp/e" --methods zfial
+refuses 2 "takes WxH of 16 to 8192" measure "$scene" -o "$tmp/e" --size 8x8
+refuses 1 "none.gltf: No such file" measure build/scenes/none.gltf -o "$tmp/e"
 printf 'a,b\n1,2\n' > "$tmp/d/trade.csv"
-refuses 1 "is no table of this version" "$scene" -o "$tmp/d"
+refuses 1 "is no table of this version" measure "$scene" -o "$tmp/d"
 ok "and leaves it alone" grep -q '^a,b$' "$tmp/d/trade.csv"
 if command -v chromium > /dev/null; then
     chromium --headless --no-sandbox --disable-gpu --user-data-dir="$tmp/browser" --dump-dom "file://$(pwd)/$tmp/a/report.html" > "$tmp/page.html" 2> /dev/null

@@ -4,31 +4,15 @@ build=$1
 gnomon=$build/gnomon
 tmp=$build/select
 scene=build/scenes/colours.gltf
-failed=0
 rm -rf "$tmp"
 mkdir -p "$tmp"
+. tests/tools/checks.sh
 
-ok() { # what, then a command that must succeed
-    what=$1
-    shift
-    if "$@" > "$tmp/out" 2>&1; then echo "ok $what"; else echo "not ok $what"; sed 's/^/    /' "$tmp/out" | head -n 5; failed=1; fi
-}
 prints() { # what is to be printed, arguments of select
     wanted=$1
     shift
     got=$("$gnomon" select "$@" 2>&1)
     if [ "$got" = "$wanted" ]; then echo "ok select: $*"; else echo "not ok select: $* ('$got', wanted '$wanted')"; failed=1; fi
-}
-refuses() { # status, words of the message, the command's arguments
-    status=$1 words=$2
-    shift 2
-    "$gnomon" "$@" > "$tmp/out" 2> "$tmp/err"
-    got=$?
-    if [ $got = "$status" ] && grep -q "^gnomon: .*$words" "$tmp/err"; then echo "ok refuses: $*"; else
-        echo "not ok refuses: $* (status $got, wanted $status with '$words')"
-        sed 's/^/    /' "$tmp/err"
-        failed=1
-    fi
 }
 
 prints "stencil"

@@ -26,12 +26,15 @@ static void add_lights(const view *v, cJSON *root)
     for (uint32_t i = 0; i < v->loaded.light_count; i++) {
         cJSON *o = cJSON_CreateObject();
         char way[80] = "";
+        double at[2];
 
         if (v->is_adaptive && i < v->adaptive.light_count)
             gn_way_name(&v->adaptive.ways[i], way, sizeof way);
         cJSON_AddStringToObject(o, "way", v->is_adaptive ? way : v->sides[0].name);
         cJSON_AddItemToObject(o, "position", cJSON_CreateDoubleArray(v->loaded.lights[i].position, 3));
         cJSON_AddItemToObject(o, "towards", cJSON_CreateDoubleArray(v->loaded.lights[i].towards, 3));
+        if (handle_place(&v->loaded, i, v->size, at))
+            cJSON_AddItemToObject(o, "at", cJSON_CreateDoubleArray(at, 2));
         cJSON_AddItemToArray(lights, o);
     }
 }
