@@ -37,6 +37,7 @@ INC_core      := $(INC_port) -Icore -I$(B)/rules
 INC_gles      := $(INC_core) -Igles -I$(B)/gles
 INC_platforms := -Iplatforms
 INC_tools      = -D_POSIX_C_SOURCE=200809L $(INC_core) -Igles -Iplatforms -Itools -Itools/scene -Itools/truth -Itools/stage -Itools/measure -Itools/calibrate -Itools/view -I$(B)/tools/stage -I$(B)/tools/view $(shell $(PKG_CONFIG) --cflags libcjson libpng)
+INC_examples  := $(INC_gles)
 INC_tests      = $(INC_tools) -Itests/support $(shell $(PKG_CONFIG) --cflags cmocka)
 INCLUDE        = $(INC_$(firstword $(subst /, ,$<)))
 
@@ -70,7 +71,7 @@ demo: $(B)/gnomon $(SCENES) ## draw a sundial in a courtyard, headless, into bui
 	@sed -n 's/^\t"\(driver\|renderer\|platform\)":\t"\(.*\)",$$/  \1: \2/p' build/demo.json
 	@echo "build/demo.png: a sundial in a courtyard, three lights, exact stencil shadows"
 
-test: $(TESTS) $(B)/tests/truth/truth_table $(B)/tests/bench/bench_stencil $(B)/gnomon $(SCENES) headers layers check-build ## run every test of this VARIANT
+test: $(TESTS) $(B)/examples/minimal $(B)/tests/truth/truth_table $(B)/tests/bench/bench_stencil $(B)/gnomon $(SCENES) headers layers check-build ## run every test of this VARIANT
 	@sh tests/run.sh $(B) $(TESTS)
 
 truth: $(B)/gnomon $(B)/tests/truth/truth_table $(SCENES) ## masks of all test scenes against the ray-traced truth
@@ -164,6 +165,9 @@ $(B)/libgnomon.a: $(LIBRARY)
 $(B)/gnomon: $(B)/tools/main.o $(TOOLS) $(B)/libgnomon.a
 	@echo "  link  $@"
 	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+$(B)/examples/%: $(B)/examples/%.o $(B)/libgnomon.a
+	@echo "  link  $@"
+	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ -lEGL -lm -o $@
 $(B)/tests/%: $(B)/tests/%.o $(SUPPORT) $(TOOLS) $(B)/libgnomon.a
 	@echo "  link  $@"
 	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TEST_LIBS) -o $@

@@ -43,6 +43,8 @@ without_leaks sh tests/tools/measure.sh "$build" > "$build/one.log" 2>&1
 count tests/tools/measure.sh $? "$build/one.log"
 without_leaks sh tests/tools/select.sh "$build" > "$build/one.log" 2>&1
 count tests/tools/select.sh $? "$build/one.log"
+without_leaks sh tests/tools/minimal.sh "$build" > "$build/one.log" 2>&1
+count tests/tools/minimal.sh $? "$build/one.log"
 without_leaks sh tests/tools/view.sh "$build" > "$build/one.log" 2>&1
 count tests/tools/view.sh $? "$build/one.log"
 case $build in *asan*) ;; *)

@@ -1,0 +1,25 @@
+#!/bin/sh
+# minimal.sh BUILD - examples/minimal.c, run on what Mesa has, against rays; and that it is as short as docs/porting.md says. One line
+# a test: "ok ..." or "not ok ...".
+build=$1
+gnomon=$build/gnomon
+tmp=$build/minimal
+rm -rf "$tmp"
+mkdir -p "$tmp"
+. tests/tools/checks.sh
+python=python3
+[ -x /usr/bin/python3 ] && python=/usr/bin/python3
+EGL_PLATFORM=surfaceless
+export EGL_PLATFORM
+
+right() { "$build/examples/minimal" "$tmp/frame.ppm" && "$python" tests/tools/minimal_truth.py "$tmp/frame.ppm"; }
+
+ok "exact shadows on llvmpipe" right
+GALLIUM_DRIVER=softpipe ok "on softpipe" right
+GNOMON_HIDE=two-sided-stencil,stencil-wrap ok "with a stencil of one side that does not wrap" right
+GNOMON_HIDE=w0,depth-clamp ok "where nothing may be at infinity" right
+ok "in less than 150 lines" sh -c '[ "$(wc -l < examples/minimal.c)" -lt 150 ]'
+GNOMON_HIDE=stencil ok "without a stencil: by counting in alpha" right
+ok "without depth it says so, and draws nothing" sh -c "! GNOMON_HIDE=depth '$build/examples/minimal' '$tmp/none.ppm' 2> '$tmp/err' && \
+    grep -q 'minimal: .*depth' '$tmp/err' && [ ! -e '$tmp/none.ppm' ]"
+exit $failed
