@@ -1,5 +1,7 @@
 /* egl.c - a context through EGL with neither window nor GPU: displays are tried from the one that needs least
- * (surfaceless, device, default), and the surface is always a pbuffer, so that framebuffer 0 is a window's stand-in. */
+ * (surfaceless, device, default), and the surface is always a pbuffer, so that framebuffer 0 is a window's stand-in.
+ *
+ * angle is the same by ANGLE's own libEGL.so over SwiftShader, in the folder that GNOMON_ANGLE names. */
 #include "platform.h"
 
 #include <EGL/egl.h>
@@ -26,6 +28,15 @@
     F(EGLint, eglGetError, (void))                                                                                     \
     F(__eglMustCastToProperFunctionPointerType, eglGetProcAddress, (const char *))
 
+/* EGL_ANGLE_platform_angle, EGL_ANGLE_platform_angle_vulkan and _device_type_swiftshader, which Khronos' headers lack. */
+#ifndef EGL_PLATFORM_ANGLE_ANGLE
+#define EGL_PLATFORM_ANGLE_ANGLE                         0x3202
+#define EGL_PLATFORM_ANGLE_TYPE_ANGLE                    0x3203
+#define EGL_PLATFORM_ANGLE_DEVICE_TYPE_ANGLE             0x3209
+#define EGL_PLATFORM_ANGLE_TYPE_VULKAN_ANGLE             0x3450
+#define EGL_PLATFORM_ANGLE_DEVICE_TYPE_SWIFTSHADER_ANGLE 0x3487
+#endif
+
 typedef struct egl_platform {
     platform base;
     void *egl_library, *gles_library;
@@ -38,7 +49,9 @@ typedef struct egl_platform {
     int was_lost;
 } egl_platform;
 
-extern const platform_kind platform_egl;
+extern const platform_kind platform_egl, platform_angle;
+
+enum { SURFACELESS, DEVICE, DEFAULT, ANGLE, WAYS };
 
 /* A whole word of a list. */
 static int has_word(const char *list, const char *word)
@@ -51,14 +64,22 @@ static int has_word(const char *list, const char *word)
     return 0;
 }
 
-static const char *load(egl_platform *e)
+static const char *load(egl_platform *e, const char *folder)
 {
-    static const char *const egl_names[] = {"libEGL.so.1", "libEGL.so", NULL};
-    static const char *const gles_names[] = {"libGLESv2.so.2", "libGLESv2.so", NULL};
+    static const char *const usual_egl[] = {"libEGL.so.1", "libEGL.so", NULL};
+    static const char *const usual_gles[] = {"libGLESv2.so.2", "libGLESv2.so", NULL};
+    char egl_path[1024], gles_path[1024];
+    const char *const own_egl[] = {egl_path, NULL}, *const own_gles[] = {gles_path, NULL};
+    const char *const *const egl_names = folder ? own_egl : usual_egl;
+    const char *const *const gles_names = folder ? own_gles : usual_gles;
 
+    if (folder) {
+        snprintf(egl_path, sizeof egl_path, "%s/libEGL.so", folder);
+        snprintf(gles_path, sizeof gles_path, "%s/libGLESv2.so", folder);
+    }
     e->egl_library = platform_library(egl_names);
     if (!e->egl_library)
-        return "there is no libEGL.so.1";
+        return folder ? "there is no libEGL.so in the folder of GNOMON_ANGLE" : "there is no libEGL.so.1";
     e->gles_library = platform_library(gles_names); /* without it functions come from eglGetProcAddress */
 #define LOAD(type, name, parameters)                                                                                   \
     e->name = (type(EGLAPIENTRY *) parameters)platform_symbol(e->egl_library, #name);                                  \
@@ -77,11 +98,20 @@ static EGLDisplay display_of(egl_platform *e, int way)
                                               ? e->eglGetProcAddress("eglGetPlatformDisplayEXT")
                                               : NULL);
 
-    if (way == 0)
+    if (way == ANGLE) {
+        static const EGLint attributes[] = {EGL_PLATFORM_ANGLE_TYPE_ANGLE, EGL_PLATFORM_ANGLE_TYPE_VULKAN_ANGLE,
+                                            EGL_PLATFORM_ANGLE_DEVICE_TYPE_ANGLE,
+                                            EGL_PLATFORM_ANGLE_DEVICE_TYPE_SWIFTSHADER_ANGLE, EGL_NONE};
+
+        return get && has_word(extensions, "EGL_ANGLE_platform_angle")
+                   ? get(EGL_PLATFORM_ANGLE_ANGLE, (void *)EGL_DEFAULT_DISPLAY, attributes)
+                   : EGL_NO_DISPLAY;
+    }
+    if (way == SURFACELESS)
         return get && has_word(extensions, "EGL_MESA_platform_surfaceless")
                    ? get(EGL_PLATFORM_SURFACELESS_MESA, (void *)EGL_DEFAULT_DISPLAY, NULL)
                    : EGL_NO_DISPLAY;
-    if (way == 1) {
+    if (way == DEVICE) {
         const PFNEGLQUERYDEVICESEXTPROC query =
             (PFNEGLQUERYDEVICESEXTPROC)(has_word(extensions, "EGL_EXT_device_enumeration") ||
                                                 has_word(extensions, "EGL_EXT_device_base")
@@ -212,11 +242,13 @@ static void destroy(platform *p)
     free(e);
 }
 
-static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE])
+/* By the ways from first to last. */
+static platform *create_by(const platform_kind *kind, int first, int last, const char *folder,
+                           const platform_desc *desc, char message[PLATFORM_MESSAGE])
 {
-    static const char *const ways[] = {"surfaceless", "device", "default"};
+    static const char *const ways[WAYS] = {"surfaceless", "device", "default", "SwiftShader"};
     egl_platform *e = calloc(1, sizeof *e);
-    const char *failure = e ? load(e) : "no memory";
+    const char *failure = e ? load(e, folder) : "no memory";
     size_t length = 0;
 
     if (failure) {
@@ -228,9 +260,9 @@ static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE
         }
         return NULL;
     }
-    e->base.kind = &platform_egl;
+    e->base.kind = kind;
     e->display = EGL_NO_DISPLAY;
-    for (int way = 0; way < 3; way++) {
+    for (int way = first; way <= last; way++) {
         const EGLDisplay display = display_of(e, way);
         EGLint error = EGL_SUCCESS;
 
@@ -254,6 +286,21 @@ static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE
                                        length ? ", " : "", ways[way], failure, (unsigned)error);
     }
     destroy(&e->base);
+    return NULL;
+}
+
+static platform *create(const platform_desc *desc, char message[PLATFORM_MESSAGE])
+{
+    return create_by(&platform_egl, SURFACELESS, DEFAULT, NULL, desc, message);
+}
+
+static platform *create_angle(const platform_desc *desc, char message[PLATFORM_MESSAGE])
+{
+    const char *folder = getenv("GNOMON_ANGLE");
+
+    if (folder && strlen(folder) < 1000)
+        return create_by(&platform_angle, ANGLE, ANGLE, folder, desc, message);
+    snprintf(message, PLATFORM_MESSAGE, "GNOMON_ANGLE names no folder");
     return NULL;
 }
 
@@ -281,3 +328,4 @@ static void (*get_proc(platform *p, const char *name))(void)
 }
 
 const platform_kind platform_egl = {"egl", create, make_current, get_proc, lost, destroy};
+const platform_kind platform_angle = {"angle", create_angle, make_current, get_proc, lost, destroy};

@@ -5,8 +5,8 @@
 #include "window.h"
 
 #define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <GLES2/gl2.h>
+#include <GLFW/glfw3.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +36,7 @@
     F(GLFWmousebuttonfun, glfwSetMouseButtonCallback, (GLFWwindow * window, GLFWmousebuttonfun callback))              \
     F(GLFWcursorposfun, glfwSetCursorPosCallback, (GLFWwindow * window, GLFWcursorposfun callback))                    \
     F(GLFWscrollfun, glfwSetScrollCallback, (GLFWwindow * window, GLFWscrollfun callback))                             \
-    F(GLFWframebuffersizefun, glfwSetFramebufferSizeCallback, (GLFWwindow * window, GLFWframebuffersizefun callback)) \
+    F(GLFWframebuffersizefun, glfwSetFramebufferSizeCallback, (GLFWwindow * window, GLFWframebuffersizefun callback))  \
     F(GLFWwindowclosefun, glfwSetWindowCloseCallback, (GLFWwindow * window, GLFWwindowclosefun callback))              \
     F(void, glfwSetWindowShouldClose, (GLFWwindow * window, int value))
 
@@ -215,7 +215,8 @@ static void read_size(glfw_platform *g)
 
 static void read_bits(glfw_platform *g)
 {
-    void(GL_APIENTRY * get)(GLenum, GLint *) = (void(GL_APIENTRY *)(GLenum, GLint *))g->glfwGetProcAddress("glGetIntegerv");
+    void(GL_APIENTRY * get)(GLenum, GLint *) =
+        (void(GL_APIENTRY *)(GLenum, GLint *))g->glfwGetProcAddress("glGetIntegerv");
     static const GLenum names[6] = {GL_RED_BITS,   GL_GREEN_BITS, GL_BLUE_BITS,
                                     GL_ALPHA_BITS, GL_DEPTH_BITS, GL_STENCIL_BITS};
     int *const bits[6] = {&g->base.actual.red_bits,   &g->base.actual.green_bits, &g->base.actual.blue_bits,

@@ -9,10 +9,12 @@
 #include <malloc.h>
 #endif
 
-extern const platform_kind platform_egl, platform_osmesa, platform_glfw, platform_glfw_native, platform_glfw_osmesa;
+extern const platform_kind platform_egl, platform_osmesa, platform_glfw, platform_glfw_native, platform_glfw_osmesa,
+    platform_angle;
 
-const platform_kind *const platform_kinds[] = {&platform_egl,         &platform_osmesa,      &platform_glfw,
-                                               &platform_glfw_native, &platform_glfw_osmesa, NULL};
+const platform_kind *const platform_kinds[] = {
+    &platform_egl, &platform_osmesa, &platform_glfw, &platform_glfw_native, &platform_glfw_osmesa, &platform_angle,
+    NULL};
 
 static void keep_memory(void)
 {

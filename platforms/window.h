@@ -32,7 +32,7 @@ int window_exists(const platform *p);
 void window_show(platform *p, const char *title);
 /* The next event, oldest first: 1, or 0 when there is none. Allocates nothing. */
 int window_poll(platform *p, window_event *event);
-void window_present(platform *p); /* what was drawn last; waits for the screen */
+void window_present(platform *p);                                 /* what was drawn last; waits for the screen */
 void window_resize(platform *p, uint32_t width, uint32_t height); /* asks for it; an event tells of it */
 double window_scale(const platform *p);                           /* pixels of a point: 2 on a fine screen */
 #endif

@@ -21,7 +21,7 @@ done
 ok "help lists the commands" sh -c "$gnomon help | grep -q '  probe'"
 ok "methods lists zfail, zpass and stencil" sh -c "$gnomon methods | grep -q '^zfail  *exact' && $gnomon methods | grep -q '^zpass  *inexact' && $gnomon methods | grep -q '^stencil  *exact'"
 ok "probe names driver and methods" sh -c "$gnomon probe --platform egl | grep -q 'zfail  *possible'"
-ok "probe --json is JSON" sh -c "$gnomon probe --json | python3 -c 'import json, sys; assert len(json.load(sys.stdin)) == 5'"
+ok "probe --json is JSON" sh -c "$gnomon probe --json | python3 -c 'import json, sys; assert len(json.load(sys.stdin)) == 6'"
 ok "probe knows methods without a stencil" sh -c "[ \$($gnomon probe --platform egl --hide stencil | grep -cE '^  (count|signed|alpha|screen)  *possible; in ') = 4 ]"
 ok "probe says what is hidden" sh -c "$gnomon probe --platform egl --hide w0 | grep -qE '^  w0 +yes +no +yes'"
 ok "GNOMON_HIDE hides too" sh -c "GNOMON_HIDE=stencil $gnomon probe --platform egl | grep -q 'zfail .*needs stencil, which is hidden'"

@@ -88,7 +88,8 @@ int handle_place(const scene *s, size_t light, const uint32_t size[2], double at
     if (!s->camera.orthographic && seen[2] < s->camera.znear)
         return 0;
     unit = unit_at(s, seen[2], size);
-    at[0] = 0.5 * size[0] + seen[0] / unit * (s->camera.orthographic ? s->camera.ymag / s->camera.xmag * size[0] / size[1] : 1.0);
+    at[0] = 0.5 * size[0] +
+            seen[0] / unit * (s->camera.orthographic ? s->camera.ymag / s->camera.xmag * size[0] / size[1] : 1.0);
     at[1] = 0.5 * size[1] - seen[1] / unit;
     return 1;
 }

@@ -6,9 +6,9 @@
 #include "scene.h"
 
 typedef struct handle {
-    int is_moved;         /* by hand: the scene's own animation of it is over */
-    double at[3];         /* its handle, world */
-    double turned;        /* degrees about the vertical axis through the scene's middle */
+    int is_moved;  /* by hand: the scene's own animation of it is over */
+    double at[3];  /* its handle, world */
+    double turned; /* degrees about the vertical axis through the scene's middle */
 } handle;
 
 typedef struct handles {

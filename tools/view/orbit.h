@@ -6,7 +6,7 @@
 typedef struct orbit {
     int is_moved; /* 0: the scene's own camera is seen, as it is animated */
     double target[3], yaw, pitch, distance;
-    double reach; /* of the scene: half its diagonal */
+    double reach;                  /* of the scene: half its diagonal */
     double zoom, magnification[2]; /* of an orthographic camera: by how much, of what */
 } orbit;
 

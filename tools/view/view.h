@@ -18,14 +18,7 @@
 #include "stage.h"
 #include "window.h"
 
-typedef enum view_show {
-    VIEW_LIT,
-    VIEW_VOLUMES,
-    VIEW_CASES,
-    VIEW_SILHOUETTES,
-    VIEW_MASK,
-    VIEW_SHOWS
-} view_show;
+typedef enum view_show { VIEW_LIT, VIEW_VOLUMES, VIEW_CASES, VIEW_SILHOUETTES, VIEW_MASK, VIEW_SHOWS } view_show;
 
 /* How shadows are made, where the selector does not choose. */
 typedef struct view_way {
@@ -37,8 +30,8 @@ typedef struct view_way {
 /* What a side of the last frame took, and what was drawn. */
 typedef struct view_side {
     double ms;
-    double fragments;             /* of shadow volumes, estimated */
-    double bytes, milliwatts;     /* traffic of the whole frame, and what that takes at this pace, or 60 frames a second */
+    double fragments;         /* of shadow volumes, estimated */
+    double bytes, milliwatts; /* traffic of the whole frame, and what that takes at this pace, or 60 frames a second */
     char name[64];
     char why[256]; /* it cannot be: "" where it can */
 } view_side;

@@ -77,7 +77,8 @@ static void next_budget(view *v, int is_shifted)
 {
     gn_budget *b = &v->files.budget;
 
-    b->frame_ms = fmin(fmax((b->frame_ms > 0.0 ? b->frame_ms : 16.7) * (is_shifted ? sqrt(2.0) : sqrt(0.5)), 0.5), 1000.0);
+    b->frame_ms =
+        fmin(fmax((b->frame_ms > 0.0 ? b->frame_ms : 16.7) * (is_shifted ? sqrt(2.0) : sqrt(0.5)), 0.5), 1000.0);
     adaptive_set_budget(&v->adaptive, b);
     v->is_adaptive = 1;
     view_tell(v, "budget: %.1f ms a frame", b->frame_ms);

@@ -246,11 +246,14 @@ static void draw_capabilities(const view *v, double unit)
     l.letters = MOST_LETTERS - 1;
     put(&l, dim, "a letter hides a capability, or shows it again; C: enough");
     for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
-        put(&l, v->hidden >> c & 1 ? red : gn_target_can(&v->stage->target, (gn_capability)c) ? bright : dim, "%c  %-22s %s",
-            'A' + c + (c >= 2), gn_capability_name((gn_capability)c),
-            v->hidden >> c & 1                                     ? "hidden"
+        put(&l,
+            v->hidden >> c & 1                                   ? red
+            : gn_target_can(&v->stage->target, (gn_capability)c) ? bright
+                                                                 : dim,
+            "%c  %-22s %s", 'A' + c + (c >= 2), gn_capability_name((gn_capability)c),
+            v->hidden >> c & 1                                   ? "hidden"
             : gn_target_can(&v->stage->target, (gn_capability)c) ? "proven"
-                                                                   : "not here");
+                                                                 : "not here");
     draw_lines(v->overlay, &l, 24.0 * unit, 24.0 * unit);
 }
 

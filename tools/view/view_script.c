@@ -178,7 +178,8 @@ void view_script_free(view_script *s)
 
 static void drag(view *v, const line *l)
 {
-    window_event e = {.kind = WINDOW_PRESS, .button = l->button, .modifiers = l->modifiers, .x = l->at[0], .y = l->at[1]};
+    window_event e = {
+        .kind = WINDOW_PRESS, .button = l->button, .modifiers = l->modifiers, .x = l->at[0], .y = l->at[1]};
 
     view_take(v, &e);
     e.kind = WINDOW_MOVE;
