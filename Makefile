@@ -1,6 +1,7 @@
 # gnomon. `make help` lists the targets.
 #
-# VARIANT: release debug asan size. CROSS: a board's compiler prefix (arm-linux-gnueabihf-).
+# VARIANT: release debug asan size. CROSS: a board's compiler prefix (arm-linux-gnueabihf-, aarch64-linux-gnu-).
+# SYSROOT: what the command finds of the board under CROSS; without, a root of Debian is made in build/ (debootstrap).
 # FONT: what the viewer writes with.
 # HOST_CC: what compiles for where the build runs, also when it is for a board.
 # V=1 shows whole commands. CC, CFLAGS, CPPFLAGS, LDFLAGS, AR, PKG_CONFIG, PREFIX, DESTDIR mean what they mean everywhere.
@@ -9,6 +10,7 @@ CROSS      ?=
 PREFIX     ?= /usr/local
 PKG_CONFIG ?= pkg-config
 HOST_CC    ?= cc
+HOST_PKG_CONFIG ?= env -u PKG_CONFIG_LIBDIR -u PKG_CONFIG_SYSROOT_DIR pkg-config
 FONT       ?= /usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf
 PYTHON     ?= python3
 
@@ -20,6 +22,15 @@ AR := $(CROSS)ar
 endif
 
 B       := build/$(notdir $(CROSS))$(VARIANT)
+ifneq ($(CROSS),)
+ARCH    := $(if $(findstring aarch64,$(CROSS)),arm64,armhf)
+SYSROOT ?= build/root-$(ARCH)
+TRIPLE  := $(patsubst %-,%,$(notdir $(CROSS)))
+ROOT    := $(if $(filter file,$(origin SYSROOT)),$(SYSROOT)/.whole)
+SYSTEM  := --sysroot=$(SYSROOT)
+export PKG_CONFIG_SYSROOT_DIR := $(abspath $(SYSROOT))
+export PKG_CONFIG_LIBDIR      := $(abspath $(SYSROOT))/usr/lib/$(TRIPLE)/pkgconfig:$(abspath $(SYSROOT))/usr/share/pkgconfig
+endif
 D       := $(DESTDIR)$(PREFIX)
 VERSION := $(shell awk '/define GN_VERSION_/ {printf dot $$3; dot = "."}' core/gnomon.h)
 
@@ -29,7 +40,7 @@ asan    := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-om
 size    := -Os -ffunction-sections -fdata-sections
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 # -ffp-contract=off: the same floats with fused multiply-add and without (DESIGN.md, decision 1)
-FLAGS    = -std=c99 $(WARN) $(WERROR) -ffp-contract=off $($(VARIANT)) $(INCLUDE) -MMD -MP $(CPPFLAGS) $(CFLAGS)
+FLAGS    = -std=c99 $(SYSTEM_$(firstword $(subst /, ,$<))) $(WARN) $(WERROR) -ffp-contract=off $($(VARIANT)) $(INCLUDE) -MMD -MP $(CPPFLAGS) $(CFLAGS)
 
 # Each room sees only the rooms below it.
 INC_port      := -Iport
@@ -41,6 +52,11 @@ INC_examples  := $(INC_gles)
 INC_tests      = $(INC_tools) -Itests/support $(shell $(PKG_CONFIG) --cflags cmocka)
 INCLUDE        = $(INC_$(firstword $(subst /, ,$<)))
 
+# The library needs headers of Khronos alone; the rest what the board has.
+SYSTEM_platforms := $(SYSTEM)
+SYSTEM_tools     := $(SYSTEM)
+SYSTEM_tests     := $(SYSTEM)
+SYSTEM_examples  := $(SYSTEM)
 TOOL_LIBS  = $(shell $(PKG_CONFIG) --libs libcjson libpng) -lmeshoptimizer -ldl -lm
 TEST_LIBS  = $(shell $(PKG_CONFIG) --libs cmocka) $(TOOL_LIBS)
 
@@ -52,6 +68,8 @@ SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/* tools/view/shaders/* rules/default.fcl)) $(B)/tools/view/font.h
 COMPILER := rules/compile.c core/rules.c core/rules_about.c core/scan.c core/slices.c core/fuzzy.c core/context.c port/port_libc.c $(wildcard core/*.h)
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
+# What is run under qemu: not what takes minutes there.
+ARM_TESTS := $(filter-out %/test_layers,$(patsubst %.c,$(B)/%,$(wildcard tests/core/test_*.c) tests/extremes/test_numbers.c tests/rules/test_rules.c tests/select/test_selector.c)) $(patsubst %,$(B)/tests/gles/test_%,formats hidden kept parts state targets)
 BENCHES := $(patsubst %.c,$(B)/%,$(wildcard tests/bench/bench_*.c))
 PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core/gn_matrix.h core/gn_rules.h core/gn_select.h gles/gnomon_gles.h gles/gn_glsl.h gles/gn_gl.h gles/gl_funcs.h
 SCENES  := build/scenes/scenes.txt
@@ -61,7 +79,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: all deps demo test truth bench trade selector certify boards headers layers asan valgrind size install install-lib format clean help check-build force
+.PHONY: all deps deps-drivers demo test test-drivers test-arm arm-tests angle truth bench trade selector certify boards headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -105,6 +123,23 @@ selector: $(B)/gnomon $(BENCHES) $(SCENES) ## the figures of docs/selector.md: c
 
 certify: $(B)/gnomon $(SCENES) ## no exact method is wrong along a path round each test scene
 	@$(B)/gnomon measure --certify $$(awk '$$3 != "extreme" {print "build/scenes/" $$1 ".gltf"}' build/scenes/scenes.txt)
+
+test-drivers: $(B)/gnomon $(patsubst %.c,$(B)/%,$(wildcard tests/gles/test_*.c)) $(SCENES) ## masks and tests of tests/gles on every driver that is here, into docs/drivers.md (half an hour)
+	@$(PYTHON) tests/drivers.py $(B) > build/drivers.md; status=$$?; mv build/drivers.md docs/drivers.md; exit $$status
+
+deps-drivers: ## what Debian has of drivers and, for test-arm, of compilers and qemu: installs it as root, else prints the command
+	@sh tools/deps.sh drivers
+
+angle: build/angle/libEGL.so ## fetches ANGLE over SwiftShader by npm into build/, a driver for test-drivers
+
+test-arm: $(B)/gnomon $(SCENES) ## builds for armhf and arm64 and runs it by qemu (debootstrap; a quarter of an hour)
+	@$(MAKE) --no-print-directory CROSS=arm-linux-gnueabihf- arm-tests
+	@$(MAKE) --no-print-directory CROSS=aarch64-linux-gnu- arm-tests
+	@sh tests/arm.sh armhf build/arm-linux-gnueabihf-$(VARIANT) $(B) && sh tests/arm.sh arm64 build/aarch64-linux-gnu-$(VARIANT) $(B)
+	@$(PYTHON) tests/drivers.py $(B) "armhf softpipe" "arm64 softpipe"
+	@echo "armhf and arm64: as here"
+
+arm-tests: $(B)/libgnomon.a $(B)/gnomon $(B)/examples/minimal $(ARM_TESTS)
 
 boards: $(B)/gnomon ## probe every driver that this machine can run, into docs/boards.md
 	@$(PYTHON) tests/boards.py $(B)/gnomon > build/boards.md && mv build/boards.md docs/boards.md
@@ -164,13 +199,13 @@ $(B)/libgnomon.a: $(LIBRARY)
 	$(Q)$(AR) rcs $@ $^
 $(B)/gnomon: $(B)/tools/main.o $(TOOLS) $(B)/libgnomon.a
 	@echo "  link  $@"
-	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
+	$(Q)$(CC) $(SYSTEM) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TOOL_LIBS) -o $@
 $(B)/examples/%: $(B)/examples/%.o $(B)/libgnomon.a
 	@echo "  link  $@"
-	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ -lEGL -lm -o $@
+	$(Q)$(CC) $(SYSTEM) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ -lEGL -lm -o $@
 $(B)/tests/%: $(B)/tests/%.o $(SUPPORT) $(TOOLS) $(B)/libgnomon.a
 	@echo "  link  $@"
-	$(Q)$(CC) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TEST_LIBS) -o $@
+	$(Q)$(CC) $(SYSTEM) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TEST_LIBS) -o $@
 # Objects are made anew when the compiler or its flags change.
 $(B)/flags: force
 	@mkdir -p $(@D)
@@ -188,18 +223,26 @@ build/host/compile_rules: $(COMPILER)
 build/host/bake_font: tools/view/bake_font.c
 	@mkdir -p $(@D)
 	@echo "  host  $@"
-	$(Q)$(HOST_CC) -std=c99 -O1 $(shell pkg-config --cflags freetype2) $< $(shell pkg-config --libs freetype2) -o $@
+	$(Q)$(HOST_CC) -std=c99 -O1 $(shell $(HOST_PKG_CONFIG) --cflags freetype2) $< $(shell $(HOST_PKG_CONFIG) --libs freetype2) -o $@
 $(B)/tools/view/font.h: build/host/bake_font $(FONT)
 	@mkdir -p $(@D)
 	@build/host/bake_font $(FONT) > $@.part && mv $@.part $@
 $(B)/rules/%.fcl.h: rules/%.fcl build/host/compile_rules
 	@mkdir -p $(@D)
 	@build/host/compile_rules < $< > $@.part && mv $@.part $@
+build/angle/libEGL.so:
+	@sh tests/angle.sh build/angle
 # A shader becomes a C string: comments go, lines stay, so that the driver's line numbers are the file's.
 $(B)/%.h: %
 	@mkdir -p $(@D)
 	@{ echo 'static const char gni_shader_$(subst .,_,$(notdir $<))[] ='; \
 	  sed 's|[[:space:]]*//.*||; s|\\|\\\\|g; s|"|\\"|g; s|.*|    "&\\n"|' $<; echo '    ;'; } > $@
+ifneq ($(ROOT),)
+$(ROOT):
+	@echo "  root  $(SYSROOT)"
+	@sh tests/arm_root.sh $(ARCH) $(SYSROOT)
+$(TOOLS) $(SUPPORT) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table $(B)/examples/minimal): | $(ROOT)
+endif
 $(SCENES): $(wildcard tests/scenes/*.py)
 	@mkdir -p $(@D)
 	$(PYTHON) tests/scenes/scenes.py $(@D)

@@ -1,6 +1,6 @@
 #!/bin/sh
 # lanes.sh BUILD CC - the index streams of volumes are the same bytes, one triangle at a time, in the compiler's own vectors, in
-# AVX2's where the processor has them, and in NEON's where a cross compiler and qemu are installed.
+# AVX2's where the processor has them, and in those of armhf and arm64 where cross compilers and qemu are installed.
 build=$1/lanes cc=$2
 mkdir -p "$build"
 flags="-std=c99 -O2 -ffp-contract=off -Iport -Icore -I$1/rules -Itests/support"
@@ -24,4 +24,8 @@ compare vectors "" "$cc"
 grep -q avx2 /proc/cpuinfo && compare avx2 "" "$cc" -mavx2 -mfma
 command -v aarch64-linux-gnu-gcc >/dev/null && command -v qemu-aarch64-static >/dev/null &&
     compare neon qemu-aarch64-static aarch64-linux-gnu-gcc -static
+command -v arm-linux-gnueabihf-gcc >/dev/null && command -v qemu-arm-static >/dev/null && {
+    compare armhf qemu-arm-static arm-linux-gnueabihf-gcc -static
+    compare armhf-neon qemu-arm-static arm-linux-gnueabihf-gcc -static -mfpu=neon
+}
 exit 0

@@ -30,7 +30,7 @@ static int tear_down(void **state)
 
 static void open_cache(uint32_t every, double distance)
 {
-    const gn_shadow_cache_desc desc = {every, distance};
+    const gn_shadow_cache_desc desc = {every, distance, 0};
 
     assert_int_equal(gn_shadow_cache_create(test_context, &desc, &cache), GN_OK);
     f.scene.cache = cache;
@@ -184,7 +184,7 @@ static void new_shapes_are_found(void **state)
 
 static void bad_caches_are_refused(void **state)
 {
-    const gn_shadow_cache_desc desc = {0, -1.0};
+    const gn_shadow_cache_desc desc = {0, -1.0, 0};
 
     (void)state;
     assert_int_equal(gn_shadow_cache_create(test_context, &desc, &cache), GN_E_ARG);

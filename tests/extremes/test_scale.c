@@ -1,5 +1,6 @@
 /* test_scale.c - invariance: a scene scaled by a power of two has the same masks to the last bit; scaled by powers of
  * ten, or moved a hundred thousand from the origin, the same certain pixels. llvmpipe. */
+#include "device.h"
 #include "gn_test.h"
 #include "stage.h"
 #include "truth.h"
@@ -64,7 +65,7 @@ typedef struct fixture {
 static void open_scene(fixture *f, const char *name)
 {
     const stage_options options = {
-        .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
+        .platform = test_platform(), .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
     char path[128], message[SCENE_MESSAGE] = "";
 
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);

@@ -1,5 +1,6 @@
 /* test_bounds.c - bounded lights: from random places, the frame by `stencil`, which leaves out all that a light cannot
  * reach, is the frame by z-fail, which leaves out nothing; and it never costs more. llvmpipe. */
+#include "device.h"
 #include "counted_gl.h"
 #include "gn_test.h"
 #include "stage.h"
@@ -67,7 +68,7 @@ static void bounded_frames_are_the_same(void **state)
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     for (size_t n = 0; n < sizeof scenes / sizeof scenes[0]; n++) {
         const stage_options options = {
-            .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
+            .platform = test_platform(), .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
         char path[128], message[SCENE_MESSAGE] = "";
         scene loaded;
         stage *s = NULL;
@@ -109,7 +110,7 @@ static void bounded_frames_are_the_same(void **state)
 static void unimportant_lights_cost_what_is_said(void **state)
 {
     const stage_options options = {
-        .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
+        .platform = test_platform(), .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8};
     static uint8_t rgba[2][4 * WIDTH * HEIGHT];
     char message[SCENE_MESSAGE] = "";
     double error = 0.0;
@@ -144,7 +145,7 @@ static void unimportant_lights_cost_what_is_said(void **state)
 static void coincident_surfaces_are_lit_once(void **state)
 {
     const stage_options options = {
-        .platform = "egl", .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8, .exposure = 0.05};
+        .platform = test_platform(), .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8, .exposure = 0.05};
     static uint8_t rgba[3][4 * WIDTH * HEIGHT];
     char message[SCENE_MESSAGE] = "";
     scene loaded;

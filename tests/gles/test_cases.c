@@ -1,6 +1,7 @@
 /* test_cases.c - McGuire's cases against z-fail throughout: from random places in and around every scene, in and near
  * volumes, the masks have the same bits; every case comes up; and the counts are never higher. llvmpipe: a rasteriser
  * that is not watertight counts differently before and behind what is seen; where it is not here the view is counted apart. */
+#include "device.h"
 #include "gn_test.h"
 #include "stage.h"
 #include "views.h"
@@ -63,7 +64,7 @@ static void masks_are_the_same(void **state)
     assert_non_null(list);
     while (fgets(line, sizeof line, list)) {
         const stage_options options = {
-            .platform = "egl", .width = WIDTH, .height = HEIGHT, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
+            .platform = test_platform(), .width = WIDTH, .height = HEIGHT, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
         char path[128], message[SCENE_MESSAGE] = "";
         scene loaded;
         stage *s;

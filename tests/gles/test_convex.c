@@ -4,6 +4,7 @@
  * At an edge a rasteriser, which snaps vertices, may see the triangle on the other side of it, turned from the
  * light; that is told from a false shadow by the mask of the same frame without volumes. */
 #define _DEFAULT_SOURCE
+#include "device.h"
 #include "gn_matrix.h"
 #include "gn_test.h"
 #include "stage.h"
@@ -183,7 +184,7 @@ static void run(const char *kind, const char *gallium)
 static void on_llvmpipe(void **state)
 {
     (void)state;
-    run("egl", "llvmpipe");
+    run(test_platform(), "llvmpipe");
 }
 
 static void on_osmesa(void **state)
@@ -195,7 +196,7 @@ static void on_osmesa(void **state)
 static void on_softpipe(void **state)
 {
     (void)state;
-    run("egl", "softpipe");
+    run(test_platform(), "softpipe");
 }
 
 int main(void)

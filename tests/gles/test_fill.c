@@ -1,6 +1,7 @@
 /* test_fill.c - ends, scissors and patches against z-fail throughout: from random places in and around every scene the
  * masks differ in single pixels at most, and these lie on a border of the shadow or of a surface; fragments are never
  * more, and each measure comes up. Where the plan warns of coarse depth more may differ, on borders too. */
+#include "device.h"
 #include "gn_test.h"
 #include "stage.h"
 #include "views.h"
@@ -36,7 +37,7 @@ static void only_borders_move(void **state)
     assert_non_null(list);
     while (fgets(line, sizeof line, list)) {
         const stage_options options = {
-            .platform = "egl", .width = WIDTH, .height = HEIGHT, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
+            .platform = test_platform(), .width = WIDTH, .height = HEIGHT, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
         char path[128], message[SCENE_MESSAGE] = "";
         scene loaded;
         stage *s;

@@ -140,7 +140,7 @@ static int open_on(const char *name)
 static int open_egl(void **state)
 {
     (void)state;
-    return open_on("egl");
+    return open_on(test_platform());
 }
 
 static int open_osmesa(void **state)

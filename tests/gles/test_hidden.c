@@ -1,5 +1,6 @@
 /* test_hidden.c - what is hidden is never used: a recorder between library and driver sees, while the target is
  * described and a frame is drawn, no call that needs the hidden capability. Nothing hidden, it sees them all. */
+#include "device.h"
 #include "between.h"
 #include "gn_test.h"
 #include "stage.h"
@@ -189,7 +190,7 @@ static gn_proc replace(const char *name, gn_proc found)
 /* Everything from start to a mask; a frame that is refused ends there. Returns stage_plan()'s status. */
 static int run(const char *hide, char message[SCENE_MESSAGE])
 {
-    const stage_options options = {.platform = "egl",
+    const stage_options options = {.platform = test_platform(),
                                    .width = 64,
                                    .height = 48,
                                    .depth_bits = 24,

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "device.h"
 #include "gn_test.h"
 #include "staged.h"
 
@@ -18,7 +19,7 @@ static stage *s;
 
 static void open_stage(const char *name)
 {
-    const stage_options options = {.platform = "egl",
+    const stage_options options = {.platform = test_platform(),
                                    .width = WIDTH,
                                    .height = HEIGHT,
                                    .depth_bits = 24,

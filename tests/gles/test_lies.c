@@ -1,5 +1,6 @@
 /* test_lies.c - a real driver behind a function table that lies, one lie at a time: the proof finds it out and says
  * what it saw, and the frame has the same bits as the truthful driver's all the same, or is refused in words. */
+#include "device.h"
 #include "between.h"
 #include "gn_test.h"
 #include "stage.h"
@@ -190,7 +191,7 @@ static gn_proc replace(const char *name, gn_proc found)
 static int draw(const char *path, const char *told, const char *hide, double finite_far, gn_capability c, int proven,
                 uint8_t *rgba, char message[SCENE_MESSAGE])
 {
-    const stage_options options = {.platform = "egl",
+    const stage_options options = {.platform = test_platform(),
                                    .width = WIDTH,
                                    .height = HEIGHT,
                                    .depth_bits = 24,

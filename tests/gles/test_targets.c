@@ -1,5 +1,6 @@
 /* test_targets.c - targets other than a window of 8 bits a channel: what each is said to be able to do, and that what
  * was proven once can be given back. */
+#include "device.h"
 #include "gn_test.h"
 #include "gnomon_gles.h"
 #include "platform.h"
@@ -76,7 +77,7 @@ static int open_on(const char *name, const char *hide)
 static int open_egl(void **state)
 {
     (void)state;
-    return open_on("egl", NULL);
+    return open_on(test_platform(), NULL);
 }
 
 static int open_osmesa(void **state)
@@ -288,13 +289,13 @@ static void hiding_and_saving_go_together(void **state)
     const char *line;
 
     (void)state;
-    assert_int_equal(open_on("egl", "two-sided-stencil,w0"), 0);
+    assert_int_equal(open_on(test_platform(), "two-sided-stencil,w0"), 0);
     hidden = describe(64);
     assert_int_equal(hidden.hidden, BIT(GN_CAN_TWO_SIDED_STENCIL) | BIT(GN_CAN_W0));
     assert_true(!gn_target_can(&hidden, GN_CAN_W0) && gn_target_can(&hidden, GN_CAN_STENCIL));
     gn_gles_save_target(gles, &hidden, text, sizeof text);
     close_it(NULL);
-    assert_int_equal(open_on("egl", NULL), 0);
+    assert_int_equal(open_on(test_platform(), NULL), 0);
     draws = 0;
     assert_int_equal(gn_gles_describe_target(gles, 64, 64, text, &t), GN_OK);
     assert_true(draws > 0 && gn_target_can(&t, GN_CAN_W0));
@@ -318,13 +319,13 @@ static void what_was_not_tried_is_not_kept(void **state)
     char text[4096];
 
     (void)state;
-    assert_int_equal(open_on("egl", "stencil"), 0);
+    assert_int_equal(open_on(test_platform(), "stencil"), 0);
     bind_object(RGBA8, GL_DEPTH_COMPONENT16, 64, 0);
     t = describe(64);
     assert_true(!(t.proven & BIT(GN_CAN_PACKED_DEPTH_STENCIL)));
     gn_gles_save_target(gles, &t, text, sizeof text);
     close_it(NULL);
-    assert_int_equal(open_on("egl", NULL), 0);
+    assert_int_equal(open_on(test_platform(), NULL), 0);
     bind_object(RGBA8, GL_DEPTH_COMPONENT16, 64, 0);
     assert_int_equal(gn_gles_describe_target(gles, 64, 64, text, &t), GN_OK);
     assert_true(t.proven & BIT(GN_CAN_PACKED_DEPTH_STENCIL));

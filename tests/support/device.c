@@ -2,12 +2,20 @@
 #include "device.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const test_format test_formats[TEST_FORMATS] = {{"rgba8", GL_RGBA, GL_UNSIGNED_BYTE, {8, 8, 8, 8}},
                                                 {"rgba4", GL_RGBA, GL_UNSIGNED_SHORT_4_4_4_4, {4, 4, 4, 4}},
                                                 {"rgb5a1", GL_RGBA, GL_UNSIGNED_SHORT_5_5_5_1, {5, 5, 5, 1}},
                                                 {"rgb565", GL_RGB, GL_UNSIGNED_SHORT_5_6_5, {5, 6, 5, 0}}};
+
+const char *test_platform(void)
+{
+    const char *name = getenv("GNOMON_TEST_PLATFORM");
+
+    return name ? name : "egl";
+}
 
 int test_open_device(test_device *d, const char *platform_name, uint32_t size)
 {

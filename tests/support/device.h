@@ -11,6 +11,9 @@ typedef struct test_device {
     const gn_gl *gl;
 } test_device;
 
+/* Where contexts come from: what GNOMON_TEST_PLATFORM says, or EGL (make test-drivers). */
+const char *test_platform(void);
+
 /* size * size pixels, 8 bits a channel, 24 of depth, 8 of stencil. 0, or 1 having said why: as cmocka's fixtures do. */
 int test_open_device(test_device *d, const char *platform_name, uint32_t size);
 int test_open_device_of(test_device *d, const char *platform_name, uint32_t width, uint32_t height);

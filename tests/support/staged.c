@@ -1,4 +1,5 @@
 /* staged.c - see staged.h. */
+#include "device.h"
 #include "staged.h"
 
 #include <stdio.h>
@@ -22,7 +23,7 @@ void staged_open_as(staged *t, const char *name, const stage_options *options)
 void staged_open(staged *t, const char *name, uint32_t width, uint32_t height)
 {
     const stage_options options = {
-        .platform = "egl", .width = width, .height = height, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
+        .platform = test_platform(), .width = width, .height = height, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
 
     staged_open_as(t, name, &options);
 }

@@ -52,7 +52,7 @@ static void put_word(line *l, const char *word)
 {
     put(l, "\"");
     for (const char *c = word; *c; c++)
-        put(l, *c == '"' ? "\"\"" : "%c", *c >= ' ' || *c < 0 ? *c : '?');
+        put(l, *c == '"' ? "\"\"" : "%c", (unsigned char)*c >= ' ' ? *c : '?');
     put(l, "\",");
 }
 
