@@ -136,11 +136,18 @@ static int lay_out(gni_draft *d, arena *a)
     return !a->overflow;
 }
 
+/* What is worked with lies before the plan in the memory that is given: boards have small stacks. */
+typedef struct desk {
+    gni_draft draft;
+    gn_scene scene;
+} desk;
+
 size_t gn_plan_bound(const gn_scene *scene)
 {
     gni_draft d;
     arena a = {NULL, 0, 0};
 
+    cut(&a, 1, sizeof(desk));
     memset(&d, 0, sizeof d);
     d.scene = scene;
     return scene && lay_out(&d, &a) ? a.used : 0;
@@ -362,9 +369,10 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
 
 gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory, size_t size, const gn_plan **plan)
 {
-    gni_draft d;
-    gn_scene own;
     arena a = {memory, 0, 0};
+    desk *work;
+    gni_draft *d;
+    gn_scene *own;
     size_t needed;
     gn_result result;
 
@@ -383,36 +391,39 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     if (size < needed)
         return gn_fail(context, GN_E_SPACE, "gn_plan_make: %lu bytes given, %lu needed", (unsigned long)size,
                        (unsigned long)needed);
-    own = *scene;
-    if (own.method == GN_METHOD_REFINE) {
-        own.scale = own.scale < 2 ? 2 : own.scale;
-        own.without |= GN_MEASURE_PATCHES; /* their bits name what is not contested */
+    work = cut(&a, 1, sizeof *work);
+    d = &work->draft;
+    own = &work->scene;
+    *own = *scene;
+    if (own->method == GN_METHOD_REFINE) {
+        own->scale = own->scale < 2 ? 2 : own->scale;
+        own->without |= GN_MEASURE_PATCHES; /* their bits name what is not contested */
     }
-    memset(&d, 0, sizeof d);
-    d.context = context;
-    d.scene = &own;
-    result = gni_choose(context, &own, &d.choice);
+    memset(d, 0, sizeof *d);
+    d->context = context;
+    d->scene = own;
+    result = gni_choose(context, own, &d->choice);
     if (result != GN_OK)
         return result;
-    lay_out(&d, &a);
-    d.is_colored = gni_counts_in_color(d.choice.method);
-    if (d.choice.image.depth_bits && !(d.choice.is_refined && own.target.depth_bits < d.choice.image.depth_bits))
-        own.target.depth_bits = d.choice.image.depth_bits;
-    widen(&own);
-    if (own.shade != GN_SHADE_ADDITIVE) /* what is not lit is dimmed too: shadows must reach it */
-        own.without |= GN_MEASURE_ENDS | GN_MEASURE_PATCHES | GN_MEASURE_INTERVALS | GN_MEASURE_SCISSORS;
-    start_plan(&d);
-    d.plan->target = scene->target;
-    result = make_frame(&d, &own);
+    lay_out(d, &a);
+    d->is_colored = gni_counts_in_color(d->choice.method);
+    if (d->choice.image.depth_bits && !(d->choice.is_refined && own->target.depth_bits < d->choice.image.depth_bits))
+        own->target.depth_bits = d->choice.image.depth_bits;
+    widen(own);
+    if (own->shade != GN_SHADE_ADDITIVE) /* what is not lit is dimmed too: shadows must reach it */
+        own->without |= GN_MEASURE_ENDS | GN_MEASURE_PATCHES | GN_MEASURE_INTERVALS | GN_MEASURE_SCISSORS;
+    start_plan(d);
+    d->plan->target = scene->target;
+    result = make_frame(d, own);
     if (result != GN_OK)
         return result;
     if (scene->cache)
         gni_start_cache(scene->cache, scene);
-    result = gni_add_passes(&d);
-    gni_estimate_traffic(d.plan);
+    result = gni_add_passes(d);
+    gni_estimate_traffic(d->plan);
     if (scene->cache)
-        gni_end_cache(scene->cache, d.plan);
+        gni_end_cache(scene->cache, d->plan);
     if (result == GN_OK)
-        *plan = d.plan;
+        *plan = d->plan;
     return result;
 }

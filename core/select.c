@@ -127,9 +127,9 @@ gni_refusal gni_consider_way(const gn_selection *s, uint32_t light, const gn_way
 /* Of each light and class: the least share of a way that is as accurate or more, and how accurate it is. */
 typedef struct ladder {
     double share[CLASSES];
-    gn_accuracy reaches[CLASSES];
+    uint8_t reaches[CLASSES]; /* of gn_accuracy */
+    uint8_t too_large;        /* a way is possible, but for its memory */
     uint16_t feasible;
-    int too_large; /* a way is possible, but for its memory */
 } ladder;
 
 static int climb(const gn_selection *s, uint32_t light, ladder *l)
@@ -147,16 +147,16 @@ static int climb(const gn_selection *s, uint32_t light, ladder *l)
 
         const gni_refusal refusal = gni_consider(s, light, n, &c);
 
-        l->too_large |= refusal == GNI_WAY_TOO_LARGE;
+        l->too_large |= (uint8_t)(refusal == GNI_WAY_TOO_LARGE);
         if (refusal != GNI_WAY_MAY)
             continue;
         l->feasible++;
         best = (int)c.accuracy > best ? (int)c.accuracy : best;
         for (int k = 1; k <= (int)c.accuracy; k++)
             if (l->reaches[k] == GN_ACCURACY_NONE || c.share < l->share[k] ||
-                (c.share == l->share[k] && c.accuracy > l->reaches[k])) {
+                (c.share == l->share[k] && (int)c.accuracy > l->reaches[k])) {
                 l->share[k] = c.share;
-                l->reaches[k] = c.accuracy;
+                l->reaches[k] = (uint8_t)c.accuracy;
             }
     }
     for (int c = best + 1; c < CLASSES; c++) { /* more there is not */
@@ -166,19 +166,19 @@ static int climb(const gn_selection *s, uint32_t light, ladder *l)
     return best > GN_ACCURACY_NONE || l->too_large; /* what memory alone forbids is dropped */
 }
 
-static void order_by_importance(const gn_selection *s, uint32_t *order)
+static void order_by_importance(const gn_selection *s, uint8_t *order)
 {
     for (uint32_t i = 0; i < s->light_count; i++) {
         uint32_t k = i;
 
         for (; k > 0 && s->lights[order[k - 1]].importance < s->lights[i].importance; k--)
             order[k] = order[k - 1];
-        order[k] = i;
+        order[k] = (uint8_t)i;
     }
 }
 
 /* The class of each light; returns the share that is left. */
-static double settle(const gn_selection *s, const ladder *ladders, const uint32_t *order, uint8_t *level, int *is_over)
+static double settle(const gn_selection *s, const ladder *ladders, const uint8_t *order, uint8_t *level, int *is_over)
 {
     const int floor = (int)s->budget.quality;
     int common = GN_ACCURACY_EXACT;
@@ -303,8 +303,7 @@ void gni_suit_light(const gn_selection *s, uint32_t light, double used_ms, gni_s
 gn_result gn_select(gn_context *context, const gn_selection *s, gn_choice *choices)
 {
     ladder ladders[GN_MOST_SELECTED];
-    uint32_t order[GN_MOST_SELECTED];
-    uint8_t level[GN_MOST_SELECTED];
+    uint8_t order[GN_MOST_SELECTED], level[GN_MOST_SELECTED];
     double left, used_ms = 0.0;
     int is_over;
     gn_result result;
@@ -319,11 +318,11 @@ gn_result gn_select(gn_context *context, const gn_selection *s, gn_choice *choic
             return gn_fail(context, GN_E_DEVICE, "gn_select: no way is possible here, known, and within %g bytes",
                            s->budget.memory);
     for (uint32_t i = 0; i < s->light_count; i++)
-        if (ladders[i].reaches[s->budget.quality] < s->budget.quality)
+        if (ladders[i].reaches[s->budget.quality] < (int)s->budget.quality)
             return gn_fail(context, GN_E_DEVICE,
                            "gn_select: light %lu: no way that is possible here is %s: the best is %s", (unsigned long)i,
                            gn_accuracy_name(s->budget.quality),
-                           gn_accuracy_name(ladders[i].reaches[s->budget.quality]));
+                           gn_accuracy_name((gn_accuracy)ladders[i].reaches[s->budget.quality]));
     order_by_importance(s, order);
     left = settle(s, ladders, order, level, &is_over);
     for (uint32_t k = 0; k < s->light_count; k++) {
@@ -338,8 +337,8 @@ gn_result gn_select(gn_context *context, const gn_selection *s, gn_choice *choic
         c->rule = UINT32_MAX;
         c->feasible = l->feasible;
         c->is_over_budget = is_over;
-        c->granted = level[i] < l->reaches[level[i]] ? (gn_accuracy)level[i] : l->reaches[level[i]];
-        c->accuracy = l->reaches[level[i]];
+        c->granted = (gn_accuracy)(level[i] < l->reaches[level[i]] ? level[i] : l->reaches[level[i]]);
+        c->accuracy = (gn_accuracy)l->reaches[level[i]];
         c->way.is_dropped = c->accuracy == GN_ACCURACY_NONE;
         if (c->way.is_dropped && !s->prefers)
             continue;

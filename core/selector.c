@@ -30,7 +30,8 @@ struct gn_selector {
     gn_light_state lights[GN_MOST_SELECTED];
     gn_load peaks[GN_MOST_SELECTED];
     gn_way ways[GN_MOST_SELECTED];
-    gn_choice wanted[GN_MOST_SELECTED];
+    gn_choice wanted[GN_MOST_SELECTED], with_less[GN_MOST_SELECTED]; /* of the budget; of a part of it */
+    gn_way tried[GN_MOST_SELECTED];
     uint32_t light_count;
     double parts[GN_METHOD_TOTAL];     /* of the frame at hand: ms predicted by method, not corrected */
     uint32_t since, since_up, wait_up; /* frames */
@@ -265,7 +266,6 @@ static int is_worth_it(const gn_selector *s, const gn_selection *of, const gn_ch
  * another gives way, that one's first. */
 static void spend(gn_selector *s, const gn_selection *of, const gn_choice *wanted)
 {
-    gn_way ways[GN_MOST_SELECTED];
     uint32_t at = UINT32_MAX;
 
     for (uint32_t i = 0; i < of->light_count; i++)
@@ -273,10 +273,10 @@ static void spend(gn_selector *s, const gn_selection *of, const gn_choice *wante
             at = i;
     if (at == UINT32_MAX)
         return;
-    memcpy(ways, s->ways, of->light_count * sizeof *ways);
-    ways[at] = step_towards(of, at, &s->ways[at], &wanted[at].way);
-    if (usage(of, ways) <= 1.0)
-        take(s, at, &ways[at], 1);
+    memcpy(s->tried, s->ways, of->light_count * sizeof *s->tried);
+    s->tried[at] = step_towards(of, at, &s->ways[at], &wanted[at].way);
+    if (usage(of, s->tried) <= 1.0)
+        take(s, at, &s->tried[at], 1);
     else
         save(s, of, wanted, at, 1);
 }
@@ -349,7 +349,6 @@ static int is_upside_down(const gn_selector *s, const gn_selection *of)
 /* What would be chosen of as much as is used now: nothing needs to be free for what serves a more important light. */
 static gn_result redistribute(gn_selector *s, double used)
 {
-    gn_choice wanted[GN_MOST_SELECTED];
     gn_selection of = selection_of(s, 1.0);
     double ms_left, mj_left;
     gn_result result;
@@ -358,15 +357,14 @@ static gn_result redistribute(gn_selector *s, double used)
     if (of.budget.frame_ms > 0.0)
         of.budget.frame_ms = of.host_ms + used * ms_left * (1.0 + 1e-9);
     of.budget.energy_mw *= used * (1.0 + 1e-9);
-    result = gn_select(s->context, &of, wanted);
+    result = gn_select(s->context, &of, s->with_less);
     if (result == GN_OK)
-        spend(s, &of, wanted);
+        spend(s, &of, s->with_less);
     return result;
 }
 
 static gn_result decide(gn_selector *s, uint32_t known)
 {
-    gn_choice with_room[GN_MOST_SELECTED];
     gn_selection of = selection_of(s, 1.0);
     gn_result result = gn_select(s->context, &of, s->wanted);
     const int is_panic = s->over >= PANIC;
@@ -405,9 +403,9 @@ static gn_result decide(gn_selector *s, uint32_t known)
     }
     swap_loads(s);
     of = selection_of(s, FREE);
-    result = gn_select(s->context, &of, with_room);
+    result = gn_select(s->context, &of, s->with_less);
     if (result == GN_OK)
-        spend(s, &of, with_room);
+        spend(s, &of, s->with_less);
     swap_loads(s);
     return result;
 }

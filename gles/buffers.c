@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define BATCH 512u /* vertices converted at a time, on the stack */
+#define BATCH 64u /* vertices converted at a time, on the stack */
 
 /* Where the mesh is, or would be. */
 static uint32_t place_of(const gn_gles *g, const gn_mesh *mesh)

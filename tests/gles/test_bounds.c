@@ -1,7 +1,7 @@
 /* test_bounds.c - bounded lights: from random places, the frame by `stencil`, which leaves out all that a light cannot
  * reach, is the frame by z-fail, which leaves out nothing; and it never costs more. llvmpipe. */
-#include "device.h"
 #include "counted_gl.h"
+#include "device.h"
 #include "gn_test.h"
 #include "stage.h"
 #include "views.h"
@@ -144,8 +144,12 @@ static void unimportant_lights_cost_what_is_said(void **state)
  * up. */
 static void coincident_surfaces_are_lit_once(void **state)
 {
-    const stage_options options = {
-        .platform = test_platform(), .width = WIDTH, .height = HEIGHT, .depth_bits = 24, .stencil_bits = 8, .exposure = 0.05};
+    const stage_options options = {.platform = test_platform(),
+                                   .width = WIDTH,
+                                   .height = HEIGHT,
+                                   .depth_bits = 24,
+                                   .stencil_bits = 8,
+                                   .exposure = 0.05};
     static uint8_t rgba[3][4 * WIDTH * HEIGHT];
     char message[SCENE_MESSAGE] = "";
     scene loaded;

@@ -63,8 +63,12 @@ static void masks_are_the_same(void **state)
     setenv("GALLIUM_DRIVER", "llvmpipe", 1);
     assert_non_null(list);
     while (fgets(line, sizeof line, list)) {
-        const stage_options options = {
-            .platform = test_platform(), .width = WIDTH, .height = HEIGHT, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
+        const stage_options options = {.platform = test_platform(),
+                                       .width = WIDTH,
+                                       .height = HEIGHT,
+                                       .exposure = 1.0,
+                                       .depth_bits = 24,
+                                       .stencil_bits = 8};
         char path[128], message[SCENE_MESSAGE] = "";
         scene loaded;
         stage *s;

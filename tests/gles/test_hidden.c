@@ -1,7 +1,7 @@
 /* test_hidden.c - what is hidden is never used: a recorder between library and driver sees, while the target is
  * described and a frame is drawn, no call that needs the hidden capability. Nothing hidden, it sees them all. */
-#include "device.h"
 #include "between.h"
+#include "device.h"
 #include "gn_test.h"
 #include "stage.h"
 

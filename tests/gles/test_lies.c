@@ -1,7 +1,7 @@
 /* test_lies.c - a real driver behind a function table that lies, one lie at a time: the proof finds it out and says
  * what it saw, and the frame has the same bits as the truthful driver's all the same, or is refused in words. */
-#include "device.h"
 #include "between.h"
+#include "device.h"
 #include "gn_test.h"
 #include "stage.h"
 

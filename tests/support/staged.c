@@ -1,6 +1,6 @@
 /* staged.c - see staged.h. */
-#include "device.h"
 #include "staged.h"
+#include "device.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,8 +22,12 @@ void staged_open_as(staged *t, const char *name, const stage_options *options)
 
 void staged_open(staged *t, const char *name, uint32_t width, uint32_t height)
 {
-    const stage_options options = {
-        .platform = test_platform(), .width = width, .height = height, .exposure = 1.0, .depth_bits = 24, .stencil_bits = 8};
+    const stage_options options = {.platform = test_platform(),
+                                   .width = width,
+                                   .height = height,
+                                   .exposure = 1.0,
+                                   .depth_bits = 24,
+                                   .stencil_bits = 8};
 
     staged_open_as(t, name, &options);
 }
