@@ -37,6 +37,7 @@ VERSION := $(shell awk '/define GN_VERSION_/ {printf dot $$3; dot = "."}' core/g
 release := -O2
 debug   := -Og -g
 asan    := -O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+footprint := -Os -ffunction-sections -fdata-sections -fcallgraph-info=su
 size    := -Os -ffunction-sections -fdata-sections
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 # -ffp-contract=off: the same floats with fused multiply-add and without (DESIGN.md, decision 1)
@@ -79,7 +80,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: all deps deps-drivers demo test test-drivers test-arm arm-tests angle truth bench trade selector certify boards headers layers asan valgrind size install install-lib format clean help check-build force
+.PHONY: footprint footprint-page all deps deps-drivers demo test test-drivers test-arm arm-tests angle truth bench trade selector certify boards headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
@@ -170,6 +171,14 @@ valgrind: $(TESTS) $(B)/gnomon $(SCENES) ## the tests that matter for memory und
 size: ## bytes per object of the library, built with -Os
 	@$(MAKE) --no-print-directory VARIANT=size build/$(notdir $(CROSS))size/libgnomon.a
 	@$(CROSS)size -t build/$(notdir $(CROSS))size/libgnomon.a
+
+# Objects of their own, since call graphs are written beside them.
+footprint: ## bytes of code, stack and heap for armhf, into docs/footprint.md (debootstrap, qemu)
+	@$(MAKE) --no-print-directory CROSS=arm-linux-gnueabihf- VARIANT=footprint footprint-page
+
+footprint-page: $(B)/libgnomon.a $(B)/tests/bench/bench_memory
+	@$(PYTHON) tests/footprint.py $(CROSS) $(B) "$(CC) $(SYSTEM)" qemu-arm-static -L $(SYSROOT) $(B)/tests/bench/bench_memory > build/footprint.md && \
+	  mv build/footprint.md docs/footprint.md
 
 install: install-lib $(B)/gnomon ## library, headers, gnomon.pc and the command under DESTDIR and PREFIX
 	install -d $(D)/bin
