@@ -1,7 +1,8 @@
 # gnomon. `make help` lists the targets.
 #
 # VARIANT: release debug asan size. CROSS: a board's compiler prefix (arm-linux-gnueabihf-, aarch64-linux-gnu-).
-# SYSROOT: what the command finds of the board under CROSS; without, a root of Debian is made in build/ (debootstrap).
+# SYSROOT: what the command is built against under CROSS. Without it, and without PKG_CONFIG_LIBDIR, for the two above a root
+# of Debian is made in build/ (debootstrap).
 # FONT: what the viewer writes with.
 # HOST_CC: what compiles for where the build runs, also when it is for a board.
 # V=1 shows whole commands. CC, CFLAGS, CPPFLAGS, LDFLAGS, AR, PKG_CONFIG, PREFIX, DESTDIR mean what they mean everywhere.
@@ -22,15 +23,15 @@ AR := $(CROSS)ar
 endif
 
 B       := build/$(notdir $(CROSS))$(VARIANT)
-ifneq ($(CROSS),)
-ARCH    := $(if $(findstring aarch64,$(CROSS)),arm64,armhf)
-SYSROOT ?= build/root-$(ARCH)
-TRIPLE  := $(patsubst %-,%,$(notdir $(CROSS)))
-ROOT    := $(if $(filter file,$(origin SYSROOT)),$(SYSROOT)/.whole)
-SYSTEM  := --sysroot=$(SYSROOT)
-export PKG_CONFIG_SYSROOT_DIR := $(abspath $(SYSROOT))
-export PKG_CONFIG_LIBDIR      := $(abspath $(SYSROOT))/usr/lib/$(TRIPLE)/pkgconfig:$(abspath $(SYSROOT))/usr/share/pkgconfig
+# For Debian's own two, and where no recipe says what the board has, a root of Debian is made for the command.
+ARCH    := $(if $(SYSROOT)$(PKG_CONFIG_LIBDIR)$(PKG_CONFIG_SYSROOT_DIR),,$(if $(filter arm-linux-gnueabihf-,$(CROSS)),armhf,$(if $(filter aarch64-linux-gnu-,$(CROSS)),arm64)))
+ifneq ($(ARCH),)
+SYSROOT := build/root-$(ARCH)
+ROOT    := $(SYSROOT)/.whole
+FOUND   := $(abspath $(SYSROOT))/usr
+override PKG_CONFIG := env PKG_CONFIG_SYSROOT_DIR=$(abspath $(SYSROOT)) PKG_CONFIG_LIBDIR=$(FOUND)/lib/$(patsubst %-,%,$(CROSS))/pkgconfig:$(FOUND)/share/pkgconfig pkg-config
 endif
+SYSTEM  := $(addprefix --sysroot=,$(SYSROOT))
 D       := $(DESTDIR)$(PREFIX)
 VERSION := $(shell awk '/define GN_VERSION_/ {printf dot $$3; dot = "."}' core/gnomon.h)
 
@@ -66,7 +67,9 @@ objects  = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)))
 LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c gles/*/*.c)
 TOOLS   := $(filter-out $(B)/tools/main.o %/bake_font.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
 SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
-SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* tools/stage/shaders/* tools/view/shaders/* rules/default.fcl)) $(B)/tools/view/font.h
+SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* rules/default.fcl))
+# Of the command alone: the library needs no font.
+DRAWN   := $(patsubst %,$(B)/%.h,$(wildcard tools/stage/shaders/* tools/view/shaders/*)) $(B)/tools/view/font.h
 COMPILER := rules/compile.c core/rules.c core/rules_about.c core/scan.c core/slices.c core/fuzzy.c core/context.c port/port_libc.c $(wildcard core/*.h)
 TESTS   := $(patsubst %.c,$(B)/%,$(wildcard tests/*/test_*.c))
 # What is run under qemu: not what takes minutes there.
@@ -246,6 +249,7 @@ $(B)/%.h: %
 	@mkdir -p $(@D)
 	@{ echo 'static const char gni_shader_$(subst .,_,$(notdir $<))[] ='; \
 	  sed 's|[[:space:]]*//.*||; s|\\|\\\\|g; s|"|\\"|g; s|.*|    "&\\n"|' $<; echo '    ;'; } > $@
+$(TOOLS) $(SUPPORT): | $(DRAWN)
 ifneq ($(ROOT),)
 $(ROOT):
 	@echo "  root  $(SYSROOT)"
@@ -258,7 +262,7 @@ $(SCENES): $(wildcard tests/scenes/*.py)
 
 # `make deps demo` on a bare machine: nothing is built before what builds it is there.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) build/host/compile_rules build/host/bake_font $(FONT) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table) headers layers check-build: | deps
+$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) $(DRAWN) build/host/compile_rules build/host/bake_font $(FONT) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table) headers layers check-build: | deps
 endif
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)

@@ -1,6 +1,6 @@
 /* knowledge.c - what each way to make shadows costs and how accurate it is, as long as nothing was measured.
  *
- * The model is a sum over what there is to draw (gn_cost); five coefficients a way, each times a count that the plan
+ * The model is a sum over what there is to draw (gn_cost); six coefficients a way, each times a count that the plan
  * knows. That shadow time is so is what Rautenbach's chapter 4 (2008) and docs/trade.md show: time follows lights, fill and, less,
  * silhouettes. */
 #include "gni_select.h"

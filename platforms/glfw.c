@@ -63,11 +63,18 @@ static glfw_platform *open_one; /* whose window calls back */
 
 /* ------------------------------------------------------------------ events */
 
+/* Moves in a row are one; where the queue is full a new size and the wish to close still take the last place. */
 static window_event *push(glfw_platform *g, window_event_kind kind)
 {
     static window_event dropped;
-    window_event *e = g->count < QUEUE ? &g->queue[(g->first + g->count++) % QUEUE] : &dropped;
+    window_event *last = g->count ? &g->queue[(g->first + g->count - 1) % QUEUE] : NULL, *e = &dropped;
 
+    if (last && last->kind == WINDOW_MOVE && kind == WINDOW_MOVE)
+        e = last;
+    else if (g->count < QUEUE)
+        e = &g->queue[(g->first + g->count++) % QUEUE];
+    else if (kind == WINDOW_RESIZE || kind == WINDOW_CLOSE)
+        e = last;
     memset(e, 0, sizeof *e);
     e->kind = kind;
     e->x = g->x;
@@ -100,9 +107,13 @@ static int key_of(int key)
 
 static void on_key(GLFWwindow *window, int key, int scancode, int action, int mods)
 {
-    window_event *e = push(open_one, action == GLFW_RELEASE ? WINDOW_KEY_UP : WINDOW_KEY);
+    window_event *e;
+
     (void)window;
     (void)scancode;
+    if (action == GLFW_REPEAT)
+        return;
+    e = push(open_one, action == GLFW_RELEASE ? WINDOW_KEY_UP : WINDOW_KEY);
     e->key = key_of(key);
     e->modifiers = modifiers_of(mods);
 }
@@ -134,16 +145,17 @@ static void on_scroll(GLFWwindow *window, double x, double y)
     push(open_one, WINDOW_SCROLL)->y = y;
 }
 
+/* platform.actual follows when the event is taken: what is drawn until then is of the old size. */
 static void on_resize(GLFWwindow *window, int width, int height)
 {
-    glfw_platform *g = open_one;
+    window_event *e;
 
     (void)window;
     if (width < 1 || height < 1) /* it is an icon now */
         return;
-    g->base.actual.width = (uint32_t)width;
-    g->base.actual.height = (uint32_t)height;
-    push(g, WINDOW_RESIZE);
+    e = push(open_one, WINDOW_RESIZE);
+    e->x = width;
+    e->y = height;
 }
 
 static void on_close(GLFWwindow *window)
@@ -326,6 +338,7 @@ static int make_current(platform *p)
 {
     glfw_platform *g = (glfw_platform *)p;
 
+    g->glfwGetError(NULL); /* of before */
     g->glfwMakeContextCurrent(g->window);
     return g->glfwGetError(NULL) == GLFW_NO_ERROR;
 }
@@ -374,6 +387,10 @@ int window_poll(platform *p, window_event *event)
     *event = g->queue[g->first];
     g->first = (g->first + 1) % QUEUE;
     g->count--;
+    if (event->kind == WINDOW_RESIZE) {
+        p->actual.width = (uint32_t)event->x;
+        p->actual.height = (uint32_t)event->y;
+    }
     return 1;
 }
 

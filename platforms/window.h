@@ -6,13 +6,13 @@
 #include "platform.h"
 
 typedef enum window_event_kind {
-    WINDOW_KEY,     /* key went down, or repeats; text: what it writes, 0 for none */
+    WINDOW_KEY,     /* key went down */
     WINDOW_KEY_UP,  /* key */
     WINDOW_PRESS,   /* button 0 left, 1 right, 2 middle; at x, y */
     WINDOW_RELEASE, /* the same */
     WINDOW_MOVE,    /* to x, y */
     WINDOW_SCROLL,  /* by y, up is positive */
-    WINDOW_RESIZE,  /* platform.actual has the new size */
+    WINDOW_RESIZE,  /* to x by y, which platform.actual is from when this is taken */
     WINDOW_CLOSE    /* is asked for */
 } window_event_kind;
 

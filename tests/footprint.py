@@ -87,7 +87,7 @@ def main():
     print("\n## Stack\n\nThe deepest paths below public functions, in bytes, by gcc's call graphs (`tests/stack.py`); calls of the port and of the GL "
           "are not followed.\n\n```")
     print(run(sys.executable, "tests/stack.py", build).rstrip())
-    print("```\n\n## Heap\n\nNothing is allocated in a frame (`tests/gles/test_walk.c`, `tests/core/test_cache.c`). Once, for a mesh; the plan's memory is the "
+    print("```\n\n## Heap\n\nNothing is allocated in a frame (`tests/gles/test_walk.c`, `tests/core/test_update.c`, `tests/select/test_selector.c`). Once, for a mesh; the plan's memory is the "
           "host's own (`tests/bench/bench_memory.c`).\n")
     print(run(*memory).rstrip())
     print("\n## What was asked\n\nUnder 96 KiB for the whole library and under 24 for a build with the stencil alone. Neither is so: the whole is as above, and a "

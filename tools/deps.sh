@@ -16,6 +16,7 @@ if [ "$1" = drivers ]; then
     need libgl1 library libGL.so.1
     need libglx-mesa0 library libGLX_mesa.so.0
     need debootstrap command -v debootstrap
+    need npm command -v npm
     need qemu-user-static command -v qemu-arm-static
     need gcc-arm-linux-gnueabihf command -v arm-linux-gnueabihf-gcc
     need libc6-dev-armhf-cross test -e /usr/arm-linux-gnueabihf/include/stdio.h

@@ -35,6 +35,8 @@ static int run_script(view *v, view_script *s)
 
     for (uint32_t frame = 0; status == EXIT_DONE && !v->is_over && !view_script_is_over(s, frame); frame++) {
         status = view_script_before(s, v, frame);
+        if (v->status != EXIT_DONE)
+            break;
         if (status == EXIT_DONE)
             status = view_frame(v, frame ? 1.0 / 60.0 : 0.0);
         if (status == EXIT_DONE)
@@ -42,7 +44,7 @@ static int run_script(view *v, view_script *s)
         if (status == EXIT_DONE && window_exists(v->stage->platform))
             window_present(v->stage->platform);
     }
-    return status;
+    return status == EXIT_DONE ? v->status : status;
 }
 
 static int run_window(view *v)
@@ -55,13 +57,15 @@ static int run_window(view *v)
         window_event event;
 
         last = now;
-        while (window_poll(v->stage->platform, &event))
+        while (!v->is_over && window_poll(v->stage->platform, &event))
             view_take(v, &event);
+        if (v->is_over)
+            break;
         status = view_frame(v, dt < LONGEST ? dt : LONGEST);
         if (status == EXIT_DONE)
             window_present(v->stage->platform);
     }
-    return status;
+    return status == EXIT_DONE ? v->status : status;
 }
 
 static int run(view *v, const selecting *given, const char *script)

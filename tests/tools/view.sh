@@ -35,6 +35,7 @@ import glob, json, math, os, sys
 values = {os.path.basename(p)[:-5]: json.load(open(p)) for p in glob.glob(sys.argv[1] + "/*.json")}
 way = lambda r, side=0: r["sides"][side]["way"]
 distance = lambda a, b: math.dist(a, b)
+reach = lambda r: distance(r["eye"], r["target"])
 sys.exit(0 if eval(sys.argv[2], {**globals(), **values}) else "%s is false" % sys.argv[2])
 END
 }
@@ -49,14 +50,20 @@ ok "it says whose GL it is, and how" says 'plain["renderer"] and way(plain) == "
 ok "shadows cost something" says 'plain["sides"][0]["fragments"] > 1000 and plain["sides"][0]["milliwatts"] > 0'
 
 # Every exact method, from another side and with a light that was dragged: no certain pixel is wrong.
-ok "keys, drags and the truth" session '0 drag 160,120 200,110\n0 scroll 2\n0 report @turned.json\n1 drag 40,200 40,201\n1 key T
+ok "keys, drags and the truth" session '0 drag 160,120 200,110\n0 scroll 2\n1 drag 40,200 40,201\n1 key T
     1 report @stencil.json\n2 key M\n2 key T\n2 report @zfail.json\n3 key M\n3 key M\n3 key M\n3 report @refine.json
     4 key M\n4 key T\n4 report @count.json\n5 quit\n'
 ok "exact methods are not wrong" says \
     'all(r["difference"]["wrong_certain"] == 0 and r["difference"]["certain"] > 40000 for r in (stencil, zfail, count))'
 ok "M goes through methods that are possible" says 'len({way(r) for r in (stencil, zfail, refine, count)}) == 4'
-ok "turning keeps the distance, the wheel shortens it" says \
-    'distance(turned["eye"], plain["eye"]) > 0.1 and distance(stencil["eye"], turned["eye"]) > 0'
+ok "a view is moved" session '0 drag 160,120 161,120\n0 report @moved.json\n1 drag 160,120 200,100\n1 report @turned.json\n2 scroll 2\n2 report @near.json
+    3 drag right 160,120 180,130\n3 report @panned.json\n4 key F\n4 key W\n20 release W\n20 report @flown.json\n21 quit\n'
+ok "turning keeps target and distance" says \
+    'distance(turned["target"], moved["target"]) < 1e-9 and abs(reach(turned) - reach(moved)) < 1e-9 and distance(turned["eye"], moved["eye"]) > 0.1'
+ok "two notches of the wheel leave 0.81 of it" says 'abs(reach(near) / reach(turned) - 0.81) < 1e-9 and distance(near["target"], turned["target"]) < 1e-9'
+ok "panning moves eye and target alike" says 'abs(reach(panned) - reach(near)) < 1e-9 and distance(panned["target"], near["target"]) > 0.01'
+ok "flying goes where one looks" says \
+    'distance(flown["target"], panned["target"]) > 0.1 and abs(distance(flown["eye"], panned["target"]) + distance(flown["eye"], panned["eye"]) - reach(panned)) < 1e-6'
 
 # What is coarse is found to be wrong, and said to be.
 ok "quarter masks" session '0 key R\n0 key R\n0 key T\n0 report @quarter.json\n0 shot @marked.png\n1 key T\n1 report @unmarked.json\n2 quit\n'
@@ -87,6 +94,24 @@ ok "capabilities are hidden and shown" session '0 key M\n0 key C\n0 key A\n0 key
 ok "a method without its capability says so" says '"stencil" in hidden["sides"][0]["impossible"] and hidden["sides"][0]["fragments"] == 0'
 ok "and comes back with it" says 'shown["sides"][0]["impossible"] == ""'
 ok "with the same mask" cmp "$tmp/wanted/light0.png" "$tmp/shown/light0.png"
+
+ok "without depth there is nothing, and it says so" session '0 key C\n1 key E\n1 key C\n2 report @nothing.json\n3 key C\n3 key E\n3 key C\n4 report @again.json\n5 quit\n'
+ok "and all of it again with it" says '"depth" in nothing["sides"][0]["impossible"] and again["sides"][0]["impossible"] == "" and way(again) == "stencil"'
+ok "marks go when lights do" session '0 key T\n0 report @still.json\n1 key K\n2 report @gone_on.json\n3 quit\n'
+ok "and only then" says '"difference" in still and "difference" not in gone_on'
+cp build/scenes/colours.bin "$tmp"
+python3 -c 'import json, sys
+g = json.load(open("build/scenes/colours.gltf"))
+light = next(i for i, n in enumerate(g["nodes"]) if "KHR_lights_punctual" in n.get("extensions", {}))
+for n in range(67):
+    g["nodes"].append(dict(g["nodes"][light]))
+    g["scenes"][0]["nodes"].append(len(g["nodes"]) - 1)
+json.dump(g, open(sys.argv[1], "w"))' "$tmp/crowd.gltf"
+scene=$tmp/crowd.gltf
+ok "more lights than the selector takes are seen" session '0 key G\n0 report @crowd.json\n1 quit\n' --size 64x48
+ok "and G says why not" says 'len(crowd["lights"]) == 71 and not crowd["adaptive"] and "64" in crowd["notice"]'
+refuses 1 "view: the selector takes at most 64 lights (71)" view "$scene" --script "$tmp/script.txt" --budget-ms 10 --platform $window
+scene=build/scenes/colours.gltf
 
 # The selector.
 ok "within a budget" session '0 report @ample.json\n1 key B\n40 report @less.json\n41 quit\n' --budget-ms 100000
@@ -119,6 +144,10 @@ END
 
 printf '0 key M\nx\n' > "$tmp/bad.txt"
 refuses 1 "line 2: is no input (x)" view $scene --script "$tmp/bad.txt"
+for line in '0 key Z' '0 resize 20x20zz' '0 scroll nan' '0 drag 1,1 2,2 3' '0 quit now' '0 shot'; do
+    printf '%s\n' "$line" > "$tmp/bad.txt"
+    refuses 1 "line 1: is no input" view $scene --script "$tmp/bad.txt"
+done
 printf '5 quit\n3 quit\n' > "$tmp/bad.txt"
 refuses 1 "line 2: its frame is before" view $scene --script "$tmp/bad.txt"
 printf '# nothing\n' > "$tmp/bad.txt"

@@ -116,16 +116,6 @@ void overlay_rectangle(overlay *o, double x, double y, double width, double heig
     quad(o, corners, color);
 }
 
-void overlay_line(overlay *o, double x0, double y0, double x1, double y1, double thickness, overlay_color color)
-{
-    const double length = hypot(x1 - x0, y1 - y0);
-    const double nx = length > 0.0 ? -(y1 - y0) / length * thickness / 2.0 : 0.0;
-    const double ny = length > 0.0 ? (x1 - x0) / length * thickness / 2.0 : 0.0;
-    const double corners[4][2] = {{x0 + nx, y0 + ny}, {x1 + nx, y1 + ny}, {x1 - nx, y1 - ny}, {x0 - nx, y0 - ny}};
-
-    quad(o, corners, color);
-}
-
 void overlay_disc(overlay *o, double x, double y, double radius, overlay_color color)
 {
     for (int i = 0; i < DISC; i++) {

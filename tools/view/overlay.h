@@ -16,7 +16,6 @@ void overlay_destroy(overlay *o); /* NULL does nothing */
 /* fine: letters twice as large. */
 void overlay_begin(overlay *o, unsigned width, unsigned height, int fine);
 void overlay_rectangle(overlay *o, double x, double y, double width, double height, overlay_color color);
-void overlay_line(overlay *o, double x0, double y0, double x1, double y1, double thickness, overlay_color color);
 void overlay_disc(overlay *o, double x, double y, double radius, overlay_color color);
 /* One line, of printable ASCII; others are drawn as '?'. Returns how wide it is. */
 double overlay_text(overlay *o, double x, double y, overlay_color color, const char *text);

@@ -34,6 +34,7 @@ typedef struct view_side {
     double bytes, milliwatts; /* traffic of the whole frame, and what that takes at this pace, or 60 frames a second */
     char name[64];
     char why[256]; /* it cannot be: "" where it can */
+    int is_blank;  /* not even without shadows */
 } view_side;
 
 enum { VIEW_TIMES = 120 };
@@ -50,7 +51,8 @@ typedef struct view {
     overlay *overlay;
     present present;
     adaptive adaptive;
-    uint32_t possible; /* methods, by bits */
+    char no_selector[256]; /* why it cannot choose here: "" where it can */
+    uint32_t possible;     /* methods, by bits */
 
     orbit camera;
     handles lights;
@@ -64,7 +66,7 @@ typedef struct view {
     double split;
     view_show show;
     int hides_panel, shows_help, shows_capabilities;
-    int is_marked; /* difference is of this view */
+    int is_marked, compares; /* difference is of this view; is to be found in the next frame */
     difference difference;
 
     double times[VIEW_TIMES]; /* ms of the left side's frames: a ring */
@@ -74,7 +76,8 @@ typedef struct view {
     unsigned moves;    /* keys that are down while flying, by bits */
     char notice[256];  /* the last thing that was done, or went wrong */
     double notice_until;
-    int is_over; /* the user has had enough */
+    int is_over; /* the user has had enough, or it cannot go on: then the command ends with this */
+    int status;
     int is_lost; /* pretends that the context is */
     unsigned shots;
 } view;
@@ -84,6 +87,8 @@ enum { VIEW_DRAGS_NOTHING, VIEW_DRAGS_VIEW, VIEW_DRAGS_PAN, VIEW_DRAGS_LIGHT, VI
 /* view_open.c: 0, or an exit status having said why. */
 int view_open(view *v);
 void view_close(view *v);
+/* Nothing for EXIT_DONE; else it is over, with that status. */
+void view_end(view *v, int status);
 /* Makes the stage anew, with what is hidden now; the scene and how it is looked at stay. */
 int view_reopen(view *v);
 int view_resize(view *v);
@@ -91,8 +96,6 @@ stage_wish view_wish(const view *v, int side);
 
 /* view_frame.c: poses, draws and shows a frame; dt: seconds since the last. 0, or an exit status having said why. */
 int view_frame(view *v, double dt);
-/* Against the truth, of the light that is meant. */
-int view_compare(view *v);
 
 /* view_panel.c */
 void view_draw_panel(view *v);
@@ -107,6 +110,8 @@ void view_take(view *v, const window_event *event);
 /* Moves what keys that are down move. */
 void view_fly(view *v, double dt);
 /* Key n and what it does, for the list; 0 past the last. */
+/* Whether a key does something, somewhere. */
+int view_is_key(int key);
 int view_key_line(int n, const char **key, const char **what);
 
 /* view_script.c: what is to be done at which frame. */

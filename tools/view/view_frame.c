@@ -14,6 +14,8 @@
 
 static void pose(view *v, double dt)
 {
+    if (!v->is_paused && dt > 0.0 && (v->loaded.duration > 0.0 || v->turns_lights))
+        v->is_marked = 0;
     if (!v->is_paused) {
         v->seconds += dt;
         if (v->loaded.duration > 0.0)
@@ -68,12 +70,16 @@ static void note_choices(const view *v, view_side *side)
     side->bytes = a->traffic.written + a->traffic.read;
 }
 
-/* What cannot be made is drawn without shadows, and says so. */
-static int draw_unshadowed(view *v, char message[SCENE_MESSAGE])
+/* What cannot be made is drawn without shadows, or where not even that can be not at all, and says so. */
+static int draw_unshadowed(view *v, view_side *side, char message[SCENE_MESSAGE])
 {
     const stage_wish wish = {.method = GN_METHOD_AUTO, .light_count = v->stage->light_count};
 
-    return stage_plan(v->stage, &wish, message) == 0 && stage_draw_lit(v->stage, 0, message);
+    if (stage_plan(v->stage, &wish, message) == 0)
+        return stage_draw_lit(v->stage, 0, message);
+    v->stage->gl->glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    side->is_blank = 1;
+    return 1;
 }
 
 static int draw_way(view *v, int number, char message[SCENE_MESSAGE])
@@ -84,7 +90,7 @@ static int draw_way(view *v, int number, char message[SCENE_MESSAGE])
 
     if (stage_plan(v->stage, &wish, message) != 0) {
         snprintf(side->why, sizeof side->why, "%.255s", message);
-        return draw_unshadowed(v, message);
+        return draw_unshadowed(v, side, message);
     }
     ok = v->show == VIEW_MASK ? stage_draw_shares(v->stage, message) : stage_draw_lit(v->stage, 0, message);
     if (ok && v->stage->plan->light_count) {
@@ -120,7 +126,7 @@ static int draw_side(view *v, int number, char message[SCENE_MESSAGE])
     if (v->is_adaptive && number == 0) {
         adaptive_measured(&v->adaptive, side->ms);
         note_choices(v, side);
-    } else {
+    } else if (!side->is_blank) {
         note_plan(v, side);
     }
     side->milliwatts = side->bytes / 1e9 * MILLIWATTS_A_GB * fmin(1000.0 / side->ms, MOST_FRAMES);
@@ -130,11 +136,45 @@ static int draw_side(view *v, int number, char message[SCENE_MESSAGE])
     return 1;
 }
 
+/* The mask of the light that is meant against the truth, as it stands. What is drawn after it is as if nothing had been. */
+static void compare(view *v)
+{
+    char message[SCENE_MESSAGE] = "";
+    stage_wish way = view_wish(v, 0);
+
+    v->compares = 0;
+    difference_free(&v->difference);
+    if (v->is_adaptive && v->light < v->adaptive.light_count) {
+        const gn_way *chosen = &v->adaptive.ways[v->light];
+
+        if (chosen->is_dropped) {
+            view_tell(v, "light %u has no shadow to be compared", (unsigned)v->light);
+            return;
+        }
+        way.method = chosen->method;
+        way.scale = chosen->scale;
+        way.upsample = chosen->upsample;
+    }
+    if (difference_find(&v->difference, v->stage, &way, v->light, message) != EXIT_DONE) {
+        view_tell(v, "no difference: %.200s", message);
+        return;
+    }
+    present_mark(&v->present, v->difference.marks, v->difference.width, v->difference.height);
+    v->is_marked = 1;
+}
+
+static int is_lost(view *v)
+{
+    v->is_lost = v->is_lost || v->stage->platform->kind->lost(v->stage->platform);
+    return v->is_lost;
+}
+
 int view_frame(view *v, double dt)
 {
     char message[SCENE_MESSAGE] = "";
+    GLenum error;
 
-    if (v->is_lost || v->stage->platform->kind->lost(v->stage->platform)) {
+    if (is_lost(v)) {
         const int status = view_reopen(v);
 
         if (status != EXIT_DONE)
@@ -143,36 +183,21 @@ int view_frame(view *v, double dt)
         view_tell(v, "the context was lost, and made again");
     }
     pose(v, dt);
+    if (v->compares)
+        compare(v);
     if ((v->is_split && !draw_side(v, 1, message)) || !draw_side(v, 0, message)) {
+        if (is_lost(v))
+            return EXIT_DONE; /* and made again before the next */
         say("%s", message);
         return EXIT_FAILED;
     }
     v->times[v->frame++ % VIEW_TIMES] = v->sides[0].ms;
     present_draw(&v->present, v->is_split ? v->split : 1.0, v->is_marked);
     view_draw_panel(v);
-    if (v->stage->gl->glGetError() != GL_NO_ERROR) {
-        say("view: the GL reports an error");
+    error = v->stage->gl->glGetError();
+    if (error != GL_NO_ERROR && !is_lost(v)) {
+        say("view: the GL reports an error (0x%04x)", (unsigned)error);
         return EXIT_FAILED;
     }
-    return EXIT_DONE;
-}
-
-int view_compare(view *v)
-{
-    char message[SCENE_MESSAGE] = "";
-    const stage_wish way = view_wish(v, 0);
-    int status;
-
-    difference_free(&v->difference);
-    v->is_marked = 0;
-    if (!v->loaded.light_count)
-        return EXIT_DONE;
-    status = difference_find(&v->difference, v->stage, &way, v->light, message);
-    if (status != EXIT_DONE) {
-        view_tell(v, "no difference: %.200s", message);
-        return EXIT_DONE;
-    }
-    present_mark(&v->present, v->difference.marks, v->difference.width, v->difference.height);
-    v->is_marked = 1;
     return EXIT_DONE;
 }

@@ -67,6 +67,10 @@ static void next_upsample(view *v, int is_shifted)
 static void toggle_selector(view *v, int is_shifted)
 {
     (void)is_shifted;
+    if (v->no_selector[0]) {
+        view_tell(v, "%s", v->no_selector);
+        return;
+    }
     v->is_adaptive = !v->is_adaptive;
     view_tell(v, v->is_adaptive ? "the selector chooses, for each light" : "%s for all lights",
               method_name((int)v->ways[0].method));
@@ -77,6 +81,10 @@ static void next_budget(view *v, int is_shifted)
 {
     gn_budget *b = &v->files.budget;
 
+    if (v->no_selector[0]) {
+        view_tell(v, "%s", v->no_selector);
+        return;
+    }
     b->frame_ms =
         fmin(fmax((b->frame_ms > 0.0 ? b->frame_ms : 16.7) * (is_shifted ? sqrt(2.0) : sqrt(0.5)), 0.5), 1000.0);
     adaptive_set_budget(&v->adaptive, b);
@@ -98,10 +106,8 @@ static void toggle_split(view *v, int is_shifted)
 static void compare(view *v, int is_shifted)
 {
     (void)is_shifted;
-    if (v->is_marked)
-        v->is_marked = 0;
-    else if (view_compare(v) != EXIT_DONE)
-        v->is_over = 1;
+    v->compares = !v->is_marked;
+    v->is_marked = 0;
 }
 
 static void next_light(view *v, int is_shifted)
@@ -154,7 +160,12 @@ static void shoot(view *v, int is_shifted)
     char path[64];
 
     (void)is_shifted;
-    snprintf(path, sizeof path, "gnomon-%03u.png", v->shots++);
+    for (FILE *there = NULL;; fclose(there)) { /* none that is there is written over */
+        snprintf(path, sizeof path, "gnomon-%03u.png", v->shots++);
+        there = fopen(path, "rb");
+        if (!there)
+            break;
+    }
     if (view_write_picture(v, path))
         view_tell(v, "%s", path);
 }
@@ -248,17 +259,32 @@ void view_fly(view *v, double dt)
 }
 
 /* Letters A and B, then D on: C closes the list. */
-static int hide(view *v, int key)
+static int capability_of(int key)
 {
     const int c = key - 'A' - (key > 'C');
 
-    if (key < 'A' || key > 'Z' || key == 'C' || c >= GN_CAPABILITY_COUNT)
+    return key < 'A' || key > 'Z' || key == 'C' || c >= GN_CAPABILITY_COUNT ? GN_CAPABILITY_COUNT : c;
+}
+
+static int hide(view *v, int key)
+{
+    const int c = capability_of(key);
+
+    if (c == GN_CAPABILITY_COUNT)
         return 0;
     v->hidden ^= 1u << c;
     view_tell(v, "%s is %s", gn_capability_name((gn_capability)c), v->hidden >> c & 1 ? "hidden" : "shown again");
-    if (view_reopen(v) != EXIT_DONE)
-        v->is_over = 1;
+    view_end(v, view_reopen(v));
     return 1;
+}
+
+int view_is_key(int key)
+{
+    int is_one = move_of(key) >= 0 || capability_of(key) < GN_CAPABILITY_COUNT;
+
+    for (int i = 0; i < KEYS; i++)
+        is_one |= keys[i].key == key;
+    return is_one;
 }
 
 static void press_key(view *v, int key, unsigned modifiers)
@@ -349,8 +375,7 @@ void view_take(view *v, const window_event *e)
         v->is_marked = 0;
         break;
     case WINDOW_RESIZE:
-        if (view_resize(v) != EXIT_DONE)
-            v->is_over = 1;
+        view_end(v, view_resize(v));
         break;
     case WINDOW_CLOSE:
         v->is_over = 1;

@@ -6,6 +6,14 @@
 
 #include "command.h"
 
+void view_end(view *v, int status)
+{
+    if (status == EXIT_DONE)
+        return;
+    v->is_over = 1;
+    v->status = status;
+}
+
 static void close_stage(view *v)
 {
     adaptive_close(&v->adaptive);
@@ -54,20 +62,26 @@ static int open_stage(view *v)
     const adaptive_options choosing = {&v->files.knowledge, v->files.rules, v->files.budget, 1.0};
     int status;
 
+    v->no_selector[0] = '\0';
     list_hidden(v->hidden, names);
     status = stage_open(&v->stage, &v->loaded, &options, message);
     if (status != 0) {
         say("%s", message);
         return status;
     }
+    v->size[0] = v->stage->target.width;
+    v->size[1] = v->stage->target.height;
     v->overlay = overlay_create(v->stage->gl);
     if (!v->overlay || !present_open(&v->present, v->stage->gl)) {
         say("view: what is drawn over the frame cannot be made");
         return EXIT_FAILED;
     }
     if (adaptive_open(&v->adaptive, v->stage, &choosing, message) != 0) {
-        say("%s", message);
-        return EXIT_FAILED;
+        if (v->is_adaptive) {
+            say("view: %s", message);
+            return EXIT_FAILED;
+        }
+        snprintf(v->no_selector, sizeof v->no_selector, "%.255s", message);
     }
     stage_pose(v->stage, v->seconds, 0.0);
     find_possible(v);
@@ -79,7 +93,6 @@ static int open_stage(view *v)
 int view_open(view *v)
 {
     char message[SCENE_MESSAGE] = "";
-    int status;
 
     if (!scene_load(&v->loaded, v->path, say_line, message) ||
         !scene_ensure_view(&v->loaded, (double)v->size[0] / v->size[1], say_line)) {
@@ -90,12 +103,7 @@ int view_open(view *v)
         say("view: no memory");
         return EXIT_FAILED;
     }
-    status = open_stage(v);
-    if (status == EXIT_DONE) {
-        v->size[0] = v->stage->target.width;
-        v->size[1] = v->stage->target.height;
-    }
-    return status;
+    return open_stage(v);
 }
 
 void view_close(view *v)
@@ -109,6 +117,8 @@ void view_close(view *v)
 int view_reopen(view *v)
 {
     v->is_marked = 0;
+    v->moves = 0;
+    v->dragged = VIEW_DRAGS_NOTHING;
     close_stage(v);
     return open_stage(v);
 }
@@ -124,8 +134,10 @@ int view_resize(view *v)
     }
     v->size[0] = v->stage->target.width;
     v->size[1] = v->stage->target.height;
-    v->adaptive.asked.target_pixels = (double)v->size[0] * v->size[1];
-    gn_selector_set(v->adaptive.selector, &v->adaptive.asked);
+    if (!v->no_selector[0]) {
+        v->adaptive.asked.target_pixels = (double)v->size[0] * v->size[1];
+        gn_selector_set(v->adaptive.selector, &v->adaptive.asked);
+    }
     return EXIT_DONE;
 }
 

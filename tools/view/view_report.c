@@ -71,6 +71,8 @@ int view_write_report(const view *v, const char *path)
         add_side(sides, &v->sides[i]);
     add_lights(v, root);
     cJSON_AddItemToObject(root, "eye", cJSON_CreateDoubleArray(v->loaded.camera.world + 12, 3));
+    if (v->camera.is_moved)
+        cJSON_AddItemToObject(root, "target", cJSON_CreateDoubleArray(v->camera.target, 3));
     cJSON_AddStringToObject(root, "notice", v->notice);
     if (v->is_marked)
         add_difference(v, root);

@@ -14,6 +14,7 @@
 #include "view.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -59,11 +60,19 @@ static int read_key(const char *text, line *out)
             out->key = named[i].key;
     if (!out->key && text[0] && !text[1])
         out->key = text[0] >= 'a' && text[0] <= 'z' ? text[0] - 'a' + 'A' : text[0];
-    return out->key != 0;
+    return view_is_key(out->key);
+}
+
+/* Finite, and nothing after them. */
+static int are_sound(const line *l, const char *text, int used)
+{
+    return isfinite(l->at[0]) && isfinite(l->at[1]) && isfinite(l->at[2]) && isfinite(l->at[3]) && !text[used];
 }
 
 static int read_drag(const char *text, line *out)
 {
+    int used = 0;
+
     if (strncmp(text, "right ", 6) == 0) {
         out->button = 1;
         text += 6;
@@ -71,12 +80,14 @@ static int read_drag(const char *text, line *out)
         out->modifiers = WINDOW_SHIFT;
         text += 6;
     }
-    return sscanf(text, "%lf,%lf %lf,%lf", &out->at[0], &out->at[1], &out->at[2], &out->at[3]) == 4;
+    return sscanf(text, "%lf,%lf %lf,%lf%n", &out->at[0], &out->at[1], &out->at[2], &out->at[3], &used) == 4 &&
+           are_sound(out, text, used);
 }
 
 static int read_rest(const char *text, line *out)
 {
     const size_t length = strlen(text);
+    int used = 0;
 
     switch (out->verb) {
     case KEY:
@@ -85,10 +96,10 @@ static int read_rest(const char *text, line *out)
     case DRAG:
         return read_drag(text, out);
     case SCROLL:
-        return sscanf(text, "%lf", &out->at[0]) == 1;
+        return sscanf(text, "%lf%n", &out->at[0], &used) == 1 && are_sound(out, text, used);
     case RESIZE:
-        return sscanf(text, "%lfx%lf", &out->at[0], &out->at[1]) == 2 && out->at[0] >= 1 && out->at[1] >= 1 &&
-               out->at[0] <= 16384 && out->at[1] <= 16384;
+        return sscanf(text, "%lfx%lf%n", &out->at[0], &out->at[1], &used) == 2 && are_sound(out, text, used) &&
+               out->at[0] >= 1 && out->at[1] >= 1 && out->at[0] <= 16384 && out->at[1] <= 16384;
     case SHOT:
     case REPORT:
     case MASKS:
@@ -147,7 +158,7 @@ view_script *view_script_read(const char *path)
             ok = 0;
             break;
         }
-        read = read_line(text, &s->lines[s->count]);
+        read = strlen(text) + 1 < sizeof text ? read_line(text, &s->lines[s->count]) : -1;
         if (read < 0 || (read > 0 && s->count && s->lines[s->count].frame < s->lines[s->count - 1].frame)) {
             say("%s: line %d: %s (%s)", path, number, read < 0 ? "is no input" : "its frame is before the last line's",
                 text);
@@ -205,7 +216,7 @@ static int resize(view *v, const line *l)
     }
     window_resize(v->stage->platform, width, height);
     for (int tries = 0; tries < 100000 && (v->size[0] != width || v->size[1] != height); tries++)
-        while (window_poll(v->stage->platform, &e))
+        while (!v->is_over && window_poll(v->stage->platform, &e))
             view_take(v, &e);
     if (v->size[0] == width && v->size[1] == height)
         return EXIT_DONE;

@@ -16,7 +16,7 @@ void main()
 {
     vec3 linear = v_uv.x < u_split ? texture2D(u_left, v_uv).rgb : texture2D(u_right, v_uv).rgb;
     vec3 encoded = mix(12.92 * linear, 1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, linear));
-    vec4 mark = u_marked * texture2D(u_marks, v_mark_uv);
+    vec4 mark = u_marked * step(v_uv.x, u_split) * texture2D(u_marks, v_mark_uv); // of the left side
 
     gl_FragColor = vec4(mix(encoded, mark.rgb, mark.a), 1.0);
 }
