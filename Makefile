@@ -262,7 +262,7 @@ $(SCENES): $(wildcard tests/scenes/*.py)
 
 # `make deps demo` on a bare machine: nothing is built before what builds it is there.
 ifneq ($(filter deps,$(MAKECMDGOALS)),)
-$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) $(DRAWN) build/host/compile_rules build/host/bake_font $(FONT) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table) headers layers check-build: | deps
+$(LIBRARY) $(TOOLS) $(SUPPORT) $(SHADERS) $(DRAWN) build/host/compile_rules build/host/bake_font $(FONT) $(SCENES) $(B)/tools/main.o $(addsuffix .o,$(TESTS) $(BENCHES) $(B)/tests/truth/truth_table $(B)/examples/minimal) headers layers check-build: | deps
 endif
 
 -include $(shell find $(B) -name '*.d' 2>/dev/null)
