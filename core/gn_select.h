@@ -81,7 +81,7 @@ int gn_plan_measure(const gn_plan *plan, uint32_t light, uint32_t samples, gn_lo
 
 /* Coefficients: shadow time or memory traffic of a light's mask is their sum over what there is of each. */
 enum {
-    GN_COST_SETUP,    /* once a frame, shared by the lights that are made this way */
+    GN_COST_SETUP,    /* of a pass, shared by its lights: see gn_count_passes() */
     GN_COST_INDEX,    /* of volumes */
     GN_COST_FRAGMENT, /* of volumes, at the mask's size */
     GN_COST_BORDER,   /* the same, of their triangles' borders */
@@ -104,7 +104,9 @@ enum {
 uint32_t gn_variant_scale(int variant);
 gn_upsample gn_variant_upsample(int variant);
 int gn_way_variant(const gn_way *way);
-/* How much of each coefficient a light's mask takes by a way, but for its kept masks and proxies; setup is 1. */
+/* Passes in which so many lights are added that are made this way: four in each, or two where masks carry depth. */
+uint32_t gn_count_passes(const gn_way *way, uint32_t lights);
+/* How much of each coefficient a light's mask takes by a way, but for its kept masks and proxies; of setup 1: a pass's. */
 void gn_count_costs(const gn_way *way, const gn_load *load, double counts[GN_COST_COUNT]);
 
 typedef struct gn_knowledge {
@@ -186,7 +188,7 @@ typedef struct gn_choice {
 
 enum { GN_MOST_SELECTED = 64 }; /* lights */
 
-/* choices: [light_count]. A way's setup is shared by all lights here, as if they were made alike. Pure: the same selection, the same choices. Accuracy first: the class that all lights can have, then the
+/* choices: [light_count]. A way's passes are shared by all lights here, as if they were made alike. Pure: the same selection, the same choices. Accuracy first: the class that all lights can have, then the
  * next class for as many as can be paid, the most important first; so that with more of a budget no light's class falls
  * that is granted to it (gn_choice.granted), nor, of one light or of time alone, that of its way.
  * Within a class, of ways that cost within a tenth of the cheapest, what suits best. Returns GN_OK; GN_E_ARG; GN_E_DEVICE

@@ -24,7 +24,8 @@ typedef struct gni_candidate {
     int variant;
     gn_accuracy accuracy;
     gn_cost cost;
-    double setup_ms; /* of cost: this light's part of it, as if all lights were made this way */
+    double setup_ms; /* of cost: this light's part of its passes, as if all lights were made this way */
+    double pass_ms;  /* and all of one pass */
     double
         share; /* of the budget that is left for shadows: the greater of time's and energy's; 0 where there is none */
 } gni_candidate;

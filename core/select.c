@@ -42,13 +42,16 @@ static void find_cost(const gn_selection *s, const gn_light_state *light, const 
     double counts[GN_COST_COUNT], us = 0.0, bytes = 0.0, ms_left, mj_left;
 
     gn_count_costs(way, &light->load, counts);
-    counts[GN_COST_SETUP] /= s->light_count;
+    counts[GN_COST_SETUP] = (double)gn_count_passes(way, s->light_count) / s->light_count;
     counts[GN_COST_INDEX] *= way->proxies ? 0.5 : 1.0;
     for (int i = 0; i < GN_COST_COUNT; i++) {
         /* a mask that is kept is read all the same */
         const double count = counts[i] / (i == GN_COST_PIXEL ? 1.0 : way->update_every);
 
-        c->setup_ms += i == GN_COST_SETUP ? gain * known->us[i] * count / 1000.0 : 0.0;
+        if (i == GN_COST_SETUP) {
+            c->setup_ms = gain * known->us[i] * count / 1000.0;
+            c->pass_ms = gain * known->us[i] / way->update_every / 1000.0;
+        }
         us += known->us[i] * count;
         bytes += known->bytes[i] * count;
     }

@@ -116,14 +116,17 @@ static int is_same(const gn_way *a, const gn_way *b)
            a->update_every == b->update_every && a->proxies == b->proxies;
 }
 
-/* What a light's way takes of a frame's time: its part of the setup, or all of it if it is the first that is made so. */
+/* What a light's way takes of a frame's time: the passes of all that are made so stand with the first of them. */
 static double ms_of(const gn_way *ways, uint32_t light, uint32_t light_count, const gni_candidate *c)
 {
-    int is_first = 1;
+    uint32_t alike = 0, before = 0;
 
-    for (uint32_t i = 0; i < light; i++)
-        is_first &= !is_same(&ways[i], &ways[light]);
-    return c->cost.ms + ((is_first ? light_count : 0.0) - 1.0) * c->setup_ms;
+    for (uint32_t i = 0; i < light_count; i++)
+        if (is_same(&ways[i], &ways[light])) {
+            alike++;
+            before += i < light;
+        }
+    return c->cost.ms - c->setup_ms + (before ? 0.0 : gn_count_passes(&ways[light], alike) * c->pass_ms);
 }
 
 /* The share of the budget that the ways take; INFINITY where one of them may not be taken. */

@@ -29,9 +29,10 @@ static size_t row_count;
 
 static double predict(const ways_scene *w, const gn_knowledge *k, const gn_load *loads, int m, int v)
 {
-    const gn_way way = {.method = (gn_method)m, .scale = gn_variant_scale(v)};
+    const gn_way way = {
+        .method = (gn_method)m, .scale = gn_variant_scale(v), .upsample = gn_variant_upsample(v), .update_every = 1};
     const double *us = k->ways[m][v].us;
-    double sum = us[GN_COST_SETUP];
+    double sum = us[GN_COST_SETUP] * gn_count_passes(&way, w->stage->light_count);
 
     for (uint32_t i = 0; i < w->stage->light_count; i++) {
         double counts[GN_COST_COUNT];

@@ -69,12 +69,19 @@ static void set_lights(gn_light_state lights[PLANT_LIGHTS], double load)
     }
 }
 
-static int is_first(const gn_way *ways, uint32_t light)
+/* Passes that a light's way is first to need; 0 where an earlier light has it. */
+static double passes_of(const gn_way *ways, uint32_t light, uint32_t count)
 {
-    for (uint32_t i = 0; i < light; i++)
-        if (memcmp(&ways[i], &ways[light], sizeof ways[i]) == 0)
-            return 0;
-    return 1;
+    uint32_t alike = 0;
+
+    for (uint32_t i = 0; i < count; i++) {
+        const int is_same = memcmp(&ways[i], &ways[light], sizeof ways[i]) == 0;
+
+        if (is_same && i < light)
+            return 0.0;
+        alike += (uint32_t)is_same;
+    }
+    return gn_count_passes(&ways[light], alike);
 }
 
 /* What the ways take, in a selection that is the board's own. */
@@ -96,7 +103,7 @@ static double true_ms(const gn_selection *board, const gn_way *ways, int *accura
         known = &board->knowledge->ways[way->method][gn_way_variant(way)];
         *accuracy = (int)known->accuracy < *accuracy ? (int)known->accuracy : *accuracy;
         gn_count_costs(way, load, counts);
-        counts[GN_COST_SETUP] = is_first(ways, i);
+        counts[GN_COST_SETUP] = passes_of(ways, i, board->light_count);
         for (int c = 0; c < GN_COST_COUNT; c++)
             sum += board->gains[way->method] * known->us[c] * counts[c] / 1000.0;
     }
