@@ -32,6 +32,8 @@ FOUND   := $(abspath $(SYSROOT))/usr
 override PKG_CONFIG := env PKG_CONFIG_SYSROOT_DIR=$(abspath $(SYSROOT)) PKG_CONFIG_LIBDIR=$(FOUND)/lib/$(patsubst %-,%,$(CROSS))/pkgconfig:$(FOUND)/share/pkgconfig pkg-config
 endif
 SYSTEM  := $(addprefix --sysroot=,$(SYSROOT))
+# Not with -L, by which links that are absolute in the root would be looked for here.
+LIBS    := $(if $(ARCH),--libs-only-l)
 D       := $(DESTDIR)$(PREFIX)
 VERSION := $(shell awk '/define GN_VERSION_/ {printf dot $$3; dot = "."}' core/gnomon.h)
 
@@ -59,8 +61,8 @@ SYSTEM_platforms := $(SYSTEM)
 SYSTEM_tools     := $(SYSTEM)
 SYSTEM_tests     := $(SYSTEM)
 SYSTEM_examples  := $(SYSTEM)
-TOOL_LIBS  = $(shell $(PKG_CONFIG) --libs libcjson libpng) -lmeshoptimizer -ldl -lm
-TEST_LIBS  = $(shell $(PKG_CONFIG) --libs cmocka) $(TOOL_LIBS)
+TOOL_LIBS  = $(shell $(PKG_CONFIG) $(or $(LIBS),--libs) libcjson libpng) -lmeshoptimizer -ldl -lm
+TEST_LIBS  = $(shell $(PKG_CONFIG) $(or $(LIBS),--libs) cmocka) $(TOOL_LIBS)
 
 Q       := $(if $(V),,@)
 objects  = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)))
