@@ -3,6 +3,7 @@
 # VARIANT: release debug asan size. CROSS: a board's compiler prefix (arm-linux-gnueabihf-, aarch64-linux-gnu-).
 # SYSROOT: what the command is built against under CROSS. Without it, and without PKG_CONFIG_LIBDIR, for the two above a root
 # of Debian is made in build/ (debootstrap).
+# FEATURES: what the library can do; core/gni_features.h explains them. None leaves z-fail in a stencil of two sides. [all]
 # FONT: what the viewer writes with.
 # HOST_CC: what compiles for where the build runs, also when it is for a board.
 # V=1 shows whole commands. CC, CFLAGS, CPPFLAGS, LDFLAGS, AR, PKG_CONFIG, PREFIX, DESTDIR mean what they mean everywhere.
@@ -14,6 +15,8 @@ HOST_CC    ?= cc
 HOST_PKG_CONFIG ?= env -u PKG_CONFIG_LIBDIR -u PKG_CONFIG_SYSROOT_DIR pkg-config
 FONT       ?= /usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf
 PYTHON     ?= python3
+EVERY_FEATURE := culling batches fallback refine cache welding clusters solids proofs messages selector text
+FEATURES   ?= $(EVERY_FEATURE)
 
 ifeq ($(origin CC),default)
 CC := $(CROSS)gcc
@@ -22,7 +25,10 @@ ifeq ($(origin AR),default)
 AR := $(CROSS)ar
 endif
 
-B       := build/$(notdir $(CROSS))$(VARIANT)
+# A build with less has a folder of its own.
+LACKS   := $(filter-out $(FEATURES),$(EVERY_FEATURE))
+empty   :=
+B       := build/$(notdir $(CROSS))$(VARIANT)$(if $(LACKS),-with$(subst $(empty) ,,$(addprefix -,$(sort $(FEATURES)))))
 # For Debian's own two, and where no recipe says what the board has, a root of Debian is made for the command.
 ARCH    := $(if $(SYSROOT)$(PKG_CONFIG_LIBDIR)$(PKG_CONFIG_SYSROOT_DIR),,$(if $(filter arm-linux-gnueabihf-,$(CROSS)),armhf,$(if $(filter aarch64-linux-gnu-,$(CROSS)),arm64)))
 ifneq ($(ARCH),)
@@ -44,7 +50,31 @@ footprint := -Os -ffunction-sections -fdata-sections -fcallgraph-info=su
 size    := -Os -ffunction-sections -fdata-sections
 WARN    := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes
 # -ffp-contract=off: the same floats with fused multiply-add and without (DESIGN.md, decision 1)
-FLAGS    = -std=c99 $(SYSTEM_$(firstword $(subst /, ,$<))) $(WARN) $(WERROR) -ffp-contract=off $($(VARIANT)) $(INCLUDE) -MMD -MP $(CPPFLAGS) $(CFLAGS)
+FLAGS    = -std=c99 $(SYSTEM_$(firstword $(subst /, ,$<))) $(WARN) $(WERROR) -ffp-contract=off $($(VARIANT)) $(INCLUDE) $(addprefix -DGNI_WITHOUT_,$(LACKS)) -MMD -MP $(CPPFLAGS) $(CFLAGS)
+
+# What a feature is, by the files that a build without it has not: core/gni_features.h says what it then cannot do,
+core     = $(patsubst %,core/%.c,$(1))
+files_culling  := $(call core,bounds ends cases cells extent fronts intervals patches receivers slivers fan flats)
+files_batches  := $(call core,batches sweep)
+files_fallback   := $(call core,batches_color choose_color fragments) $(wildcard gles/fallback/*.c)
+files_refine   := $(call core,plan_refine thin) gles/fallback/refine.c
+files_cache    := $(call core,cache kept_masks kept_records streams)
+files_clusters := $(call core,clusters order facing_floats)
+files_welding  := $(call core,groups)
+files_solids   := $(call core,embedded)
+files_proofs   := $(wildcard gles/proofs/*.c) gles/show.c
+files_selector := $(call core,select selector suitability knowledge learn loads possible fuzzy rules_about rules_default select_explain traffic)
+files_text     := $(call core,rules scan slices knowledge_read explain plan_json)
+
+# and which others it stands on.
+needs_batches  := culling
+needs_fallback := culling batches
+needs_refine   := fallback
+needs_cache    := culling
+needs_selector := refine cache text
+needs_text     := messages
+$(foreach f,$(FEATURES),$(if $(filter-out $(EVERY_FEATURE),$f),$(error FEATURES has $f: it is some of $(EVERY_FEATURE)))\
+  $(foreach n,$(needs_$f),$(if $(filter-out $(FEATURES),$n),$(error FEATURES: $f needs $n))))
 
 # Each room sees only the rooms below it.
 INC_port      := -Iport
@@ -66,7 +96,8 @@ TEST_LIBS  = $(shell $(PKG_CONFIG) $(or $(LIBS),--libs) cmocka) $(TOOL_LIBS)
 
 Q       := $(if $(V),,@)
 objects  = $(patsubst %.c,$(B)/%.o,$(wildcard $(1)))
-LIBRARY := $(call objects,port/port_libc.c core/*.c gles/*.c gles/*/*.c)
+WITHOUT := $(foreach f,$(LACKS),$(files_$f))
+LIBRARY := $(call objects,port/port_libc.c $(filter-out $(WITHOUT),$(wildcard core/*.c gles/*.c gles/*/*.c)) $(wildcard $(LACKS:%=core/without/%.c)))
 TOOLS   := $(filter-out $(B)/tools/main.o %/bake_font.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
 SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* rules/default.fcl))
@@ -88,7 +119,8 @@ endif
 .PHONY: footprint footprint-page all deps deps-drivers demo test test-drivers test-arm arm-tests angle truth bench trade selector certify boards headers layers asan valgrind size install install-lib format clean help check-build force
 .SECONDARY:
 
-all: $(B)/libgnomon.a $(B)/gnomon $(call objects,port/port_template.c) ## build the library and the command
+# The command calls all features.
+all: $(B)/libgnomon.a $(if $(LACKS),,$(B)/gnomon) $(call objects,port/port_template.c) ## build the library and the command
 
 demo: $(B)/gnomon $(SCENES) ## draw a sundial in a courtyard, headless, into build/demo.png
 	@$(B)/gnomon render build/scenes/courtyard.gltf -o build/demo.png --size 1280x800 --report build/demo.json
@@ -182,7 +214,7 @@ footprint: ## bytes of code, stack and heap for armhf, into docs/footprint.md (d
 	@$(MAKE) --no-print-directory CROSS=arm-linux-gnueabihf- VARIANT=footprint footprint-page
 
 footprint-page: $(B)/libgnomon.a $(B)/tests/bench/bench_memory
-	@$(PYTHON) tests/footprint.py $(CROSS) $(B) "$(CC) $(SYSTEM)" qemu-arm-static -L $(SYSROOT) $(B)/tests/bench/bench_memory > build/footprint.md && \
+	@$(PYTHON) tests/footprint.py $(CROSS) $(B) qemu-arm-static -L $(SYSROOT) $(B)/tests/bench/bench_memory > build/footprint.md && \
 	  mv build/footprint.md docs/footprint.md
 
 install: install-lib $(B)/gnomon ## library, headers, gnomon.pc and the command under DESTDIR and PREFIX
@@ -217,9 +249,13 @@ $(B)/gnomon: $(B)/tools/main.o $(TOOLS) $(B)/libgnomon.a
 $(B)/examples/%: $(B)/examples/%.o $(B)/libgnomon.a
 	@echo "  link  $@"
 	$(Q)$(CC) $(SYSTEM) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ -lEGL -lm -o $@
-$(B)/tests/%: $(B)/tests/%.o $(SUPPORT) $(TOOLS) $(B)/libgnomon.a
+$(B)/tests/%: $(B)/tests/%.o $(B)/libhosts.a $(B)/libgnomon.a
 	@echo "  link  $@"
 	$(Q)$(CC) $(SYSTEM) $($(VARIANT)) $(CFLAGS) $(LDFLAGS) $^ $(TEST_LIBS) -o $@
+# Of which a test takes what it calls: some have libraries that lack the rest.
+$(B)/libhosts.a: $(SUPPORT) $(TOOLS)
+	@rm -f $@
+	$(Q)$(AR) rcs $@ $^
 # Objects are made anew when the compiler or its flags change.
 $(B)/flags: force
 	@mkdir -p $(@D)
@@ -250,7 +286,7 @@ build/angle/libEGL.so:
 $(B)/%.h: %
 	@mkdir -p $(@D)
 	@{ echo 'static const char gni_shader_$(subst .,_,$(notdir $<))[] ='; \
-	  sed 's|[[:space:]]*//.*||; s|\\|\\\\|g; s|"|\\"|g; s|.*|    "&\\n"|' $<; echo '    ;'; } > $@
+	  sed 's|[[:space:]]*//.*||; s|^[[:space:]]*||; s|\\|\\\\|g; s|"|\\"|g; s|.*|    "&\\n"|' $<; echo '    ;'; } > $@
 $(TOOLS) $(SUPPORT): | $(DRAWN)
 ifneq ($(ROOT),)
 $(ROOT):

@@ -29,24 +29,6 @@ size_t gni_most_pieces(const gn_mesh *mesh, size_t ends, uint32_t limit)
     return triangles <= limit ? ends : 3 * triangles / limit + 2 * ends + 1;
 }
 
-void gni_end_batch(gni_draft *d, int more_follows)
-{
-    gn_step *step;
-
-    if (d->plan->record_count == d->first_of_batch)
-        return; /* nothing since the last */
-    gni_add_step(d, GN_STEP_VOLUMES, GN_DRAW_NOTHING, d->light, 0);
-    step = &d->steps[d->plan->step_count - 1];
-    step->first_record = d->first_of_batch;
-    step->record_count = d->plan->record_count - d->first_of_batch;
-    d->first_of_batch = d->plan->record_count;
-    d->lights[d->light].batches++;
-    if (d->is_colored)
-        gni_fold_color(d, more_follows);
-    else if (more_follows)
-        gni_add_step(d, GN_STEP_FOLD, GN_DRAW_NOTHING, d->light, 0);
-}
-
 /* A caster's volume while it is cut. */
 typedef struct cutter {
     gni_draft *d;
@@ -79,7 +61,7 @@ static uint32_t measure(const cutter *c, const uint32_t *list, uint32_t count)
 {
     gni_layers *l = c->d->layers;
 
-    if (c->d->is_colored)
+    if (gni_is_colored(c->d))
         return gni_most_fragments(c->d, c->volume, &c->d->piece);
     return gni_measure_triangles(&l->cells, &l->piece, &l->scratch, c->mesh, c->model_view, c->d->piece.of, list,
                                  count);
@@ -94,7 +76,7 @@ static void emit(const cutter *c, uint32_t measured)
     uint32_t most;
 
     gni_find_bits(c->mesh, &d->piece);
-    if (d->is_colored) {
+    if (gni_is_colored(d)) {
         gni_make_room(d, c->volume->extent->scissor, measured);
         gni_add_records(d, c->volume, 1, &d->piece);
         return;
@@ -310,8 +292,8 @@ void gni_add_batched(gni_draft *d, const gni_volume *volume, const gni_casting *
     const gn_object *object = &d->scene->objects[volume->object];
     const gn_plan_light *about = &d->lights[d->light];
     cutter c = {d,           volume, object->mesh,
-                casting->of, {0},    (uint32_t)(d->is_colored ? about->color.limit : about->stencil.high),
-                0,           0,      d->is_colored ? GNI_SPARE_PIECES : 0};
+                casting->of, {0},    (uint32_t)(gni_is_colored(d) ? about->color.limit : about->stencil.high),
+                0,           0,      gni_is_colored(d) ? GNI_SPARE_PIECES : 0};
     uint32_t measured;
 
     gni_model_view(c.model_view, &d->scene->camera, object->model, object->mesh->info.centre);

@@ -56,7 +56,7 @@ void gni_add_colored(gni_draft *d, const gni_volume *v, const gni_casting *casti
     if (fragments > limit)
         d->plan->warnings |= 1u << GN_WARN_RANGE;
     gni_make_room(d, v->extent->scissor, fragments);
-    if (!d->slot || casting != &d->casting || !gni_add_kept_records(d, v, 1))
+    if (!gni_has_slot(d) || casting != &d->casting || !gni_add_kept_records(d, v, 1))
         gni_add_records(d, v, 1, casting);
 }
 

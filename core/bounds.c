@@ -300,17 +300,6 @@ static void find_scissor(gni_bounds *b, const patch *p, const gn_camera *camera,
         b->skip = GN_SKIP_OUT_OF_VIEW;
 }
 
-void gni_no_bounds(gni_bounds *out, const gn_scene *scene, const double light[4])
-{
-    memset(out, 0, sizeof *out);
-    memcpy(out->light, light, sizeof out->light);
-    out->reach = INFINITY;
-    out->scissor[2] = scene->target.width;
-    out->scissor[3] = scene->target.height;
-    out->distances[0] = scene->camera.znear;
-    out->distances[1] = INFINITY;
-}
-
 void gni_find_bounds(gni_bounds *out, const gn_scene *scene, uint32_t light_index, const double light[4],
                      const double view[16])
 {

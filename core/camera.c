@@ -59,7 +59,7 @@ void gni_projection(double out[16], const gn_camera *camera, const double range[
         out[i] = 0.0;
     out[0] = 2.0 / width;
     out[5] = 2.0 / height;
-    if (camera->orthographic) {
+    if (gni_is_orthographic(camera)) {
         out[12] = -x;
         out[13] = -y;
         out[10] = -2.0 / (range[1] - range[0]);
@@ -70,7 +70,7 @@ void gni_projection(double out[16], const gn_camera *camera, const double range[
     out[8] = x;
     out[9] = y;
     out[11] = -1.0;
-    if (camera->finite_far) {
+    if (gni_has_finite_far(camera)) {
         out[10] = -(range[1] + range[0]) / (range[1] - range[0]);
         out[14] = -2.0 * range[1] * range[0] / (range[1] - range[0]);
     } else {
@@ -81,7 +81,7 @@ void gni_projection(double out[16], const gn_camera *camera, const double range[
 
 double gni_depth_of(const gn_camera *camera, const double range[2], double distance)
 {
-    if (camera->orthographic)
+    if (gni_is_orthographic(camera))
         return (distance - range[0]) / (range[1] - range[0]);
-    return (1.0 - range[0] / distance) * (camera->finite_far ? range[1] / (range[1] - range[0]) : 1.0);
+    return (1.0 - range[0] / distance) * (gni_has_finite_far(camera) ? range[1] / (range[1] - range[0]) : 1.0);
 }

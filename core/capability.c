@@ -1,43 +1,48 @@
 /* capability.c - capabilities by name. */
-#include "gnomon.h"
+#include "gni_features.h"
 
 #include <string.h>
 
-static const struct {
-    const char *name, *summary;
-} capabilities[] = {
-#define ROW(constant, name, summary) {name, summary},
-    GN_CAPABILITIES(ROW)
-#undef ROW
-};
+#define NAME(constant, name, summary)    name "\0"
+#define SUMMARY(constant, name, summary) GNI_SENTENCE(summary) "\0"
+static const char names[] = GN_CAPABILITIES(NAME), summaries[] = GN_CAPABILITIES(SUMMARY);
+
+static const char *text_of(const char *texts, gn_capability c)
+{
+    if ((unsigned)c >= GN_CAPABILITY_COUNT)
+        return "";
+    for (unsigned i = 0; i < (unsigned)c; i++)
+        texts += strlen(texts) + 1;
+    return texts;
+}
 
 const char *gn_capability_name(gn_capability c)
 {
-    return (unsigned)c < GN_CAPABILITY_COUNT ? capabilities[c].name : "";
+    return text_of(names, c);
 }
 
 const char *gn_capability_summary(gn_capability c)
 {
-    return (unsigned)c < GN_CAPABILITY_COUNT ? capabilities[c].summary : "";
+    return text_of(summaries, c);
 }
 
-const char *gn_capability_parse(const char *names, uint32_t *set)
+const char *gn_capability_parse(const char *list, uint32_t *set)
 {
     uint32_t found = 0;
 
-    while (names && *names) {
-        const size_t length = strcspn(names, ",");
+    while (list && *list) {
+        const size_t length = strcspn(list, ",");
         int c = 0;
 
-        while (c < GN_CAPABILITY_COUNT &&
-               (strlen(capabilities[c].name) != length || strncmp(capabilities[c].name, names, length) != 0))
-            c++;
+        for (const char *name = names; c < GN_CAPABILITY_COUNT; name += strlen(name) + 1, c++)
+            if (strlen(name) == length && strncmp(name, list, length) == 0)
+                break;
         if (c == GN_CAPABILITY_COUNT)
-            return names;
+            return list;
         found |= 1u << c;
-        names += length;
-        if (*names == ',' && *++names == '\0') /* nothing after the last comma */
-            return names - 1;
+        list += length;
+        if (*list == ',' && *++list == '\0') /* nothing after the last comma */
+            return list - 1;
     }
     *set |= found;
     return NULL;

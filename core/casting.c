@@ -57,7 +57,7 @@ static int only_lit_cast(const gn_mesh *mesh, const gni_part *part, const double
     for (int axis = 0; axis < 3; axis++)
         if (light[axis] < (double)part->box_min[axis] || light[axis] > (double)part->box_max[axis])
             return 1;
-    return fabs(winding(mesh, part, light)) < 1e-9; /* far from all whole numbers but 0 */
+    return GNI_HAS_SOLIDS && fabs(winding(mesh, part, light)) < 1e-9; /* far from all whole numbers but 0 */
 }
 
 /* Bytes of a whole cluster: `one` where the bit is set, else 0. */
@@ -139,7 +139,7 @@ void gni_find_casting(const gn_mesh *mesh, const double light[4], gni_casting *c
 
 void gni_cast(const gn_mesh *mesh, const double light[4], gni_casting *c)
 {
-    const int plain = is_plain(mesh, light), inward = plain && mesh->info.outward_part_count == 0;
+    const int plain = GNI_HAS_CLUSTERS && is_plain(mesh, light), inward = plain && mesh->info.outward_part_count == 0;
 
     if (inward)
         memcpy(c->bits, c->spare, mesh->cluster_count * sizeof *c->bits);
@@ -186,6 +186,25 @@ int gni_light_in_object(const gn_light *light, const gn_object *object, double o
     return 1;
 }
 
+int gni_light_is_outside(const gn_light *light, const gn_object *object)
+{
+    const gn_mesh_info *info = &object->mesh->info;
+    double at[4];
+
+    if (light->kind == GN_LIGHT_DIRECTIONAL)
+        return 1;
+    if (!gni_light_in_object(light, object, at))
+        return 0;
+    for (int i = 0; i < 3; i++) {
+        const double low = (double)info->box_min[i], high = (double)info->box_max[i];
+        const double margin = GNI_MARGIN * (fabs(at[i]) + high - low);
+
+        if (at[i] < low - margin || at[i] > high + margin)
+            return 1;
+    }
+    return 0;
+}
+
 static int8_t sign_of(double x)
 {
     return (int8_t)((x > 0.0) - (x < 0.0));
@@ -225,7 +244,7 @@ void gni_find_object_casting(const gn_object *object, const gn_light *light, gni
     const gn_mesh *mesh = object->mesh;
     double at[4];
 
-    if (gni_light_in_object(light, object, at)) {
+    if (gni_light_in_object(light, object, at) || !GNI_HAS_SOLIDS) {
         gni_find_casting(mesh, at, c);
         return;
     }

@@ -28,6 +28,13 @@ static void choose_layout(const gn_scene *s, gni_choice *choice)
     const gn_target *t = &s->target;
     gn_stencil_layout *layout = &choice->stencil;
 
+    layout->bits = 8;
+    layout->mask = 255;
+    if (!GNI_HAS_FALLBACK) { /* is_possible() has asked for both */
+        layout->two_sided = layout->wrap = 1;
+        layout->high = 255;
+        return;
+    }
     layout->two_sided = !s->one_sided && gn_target_can(t, GN_CAN_TWO_SIDED_STENCIL);
     layout->discard = !layout->two_sided && gn_target_can(t, GN_CAN_FRONT_FACING);
     if (s->one_sided)
@@ -42,8 +49,6 @@ static void choose_layout(const gn_scene *s, gni_choice *choice)
     layout->reference = layout->wrap ? 0 : MIDDLE;
     layout->low = layout->wrap ? 0 : -MIDDLE;
     layout->high = layout->wrap ? 255 : 255 - MIDDLE;
-    layout->bits = 8;
-    layout->mask = 255;
     if (!layout->wrap)
         gni_put(&choice->text, "; counts from %d to %d about %d, since %s %s", layout->low, layout->high,
                 layout->reference, gn_capability_name(GN_CAN_STENCIL_WRAP), gni_why_not(t, GN_CAN_STENCIL_WRAP));
@@ -77,34 +82,54 @@ static void choose_far(const gn_scene *s, gni_choice *choice)
                 gni_why_not(&s->target, GN_CAN_W0));
 }
 
+/* The feature of gni_features.h that a method is part of, where this build lacks it; NULL mostly. */
+static const char *feature_for(gn_method method)
+{
+    if (!GNI_HAS_REFINE && method == GN_METHOD_REFINE)
+        return "refine";
+    if (!GNI_HAS_FALLBACK && method >= GN_METHOD_COUNT)
+        return "fallback";
+    return !GNI_HAS_CULLING && method == GN_METHOD_STENCIL ? "culling" : NULL;
+}
+
 /* Whether a method that is asked for by name, or in the chain, can run here; if not, why. */
 static int is_possible(const gn_scene *s, gn_method method, gni_text *why)
 {
     const gn_target *t = &s->target;
     const gn_method_info *info = gn_method_describe(method);
+    const uint32_t needs =
+        info->needs | (GNI_HAS_FALLBACK ? 0u : 1u << GN_CAN_TWO_SIDED_STENCIL | 1u << GN_CAN_STENCIL_WRAP);
 
+    if (feature_for(method)) {
+        gni_put(why, "%s needs the feature %s, which this build lacks", info->name, feature_for(method));
+        return 0;
+    }
+    if (!GNI_HAS_FALLBACK && s->one_sided) {
+        gni_put(why, "%s one side at a time needs the feature fallback, which this build lacks", info->name);
+        return 0;
+    }
     for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
-        if (info->needs >> c & 1 && !gn_target_can(t, (gn_capability)c)) {
+        if (needs >> c & 1 && !gn_target_can(t, (gn_capability)c)) {
             gni_put(why, "%s needs %s, which %s", info->name, gn_capability_name((gn_capability)c),
                     gni_why_not(t, (gn_capability)c));
             return 0;
         }
-    if (method == GN_METHOD_REFINE)
+    if (method == GN_METHOD_REFINE || !GNI_HAS_FALLBACK)
         return 1;
     return gni_counts_in_color(method) ? gni_color_is_possible(s, method, why)
                                        : gni_stencil_is_possible(s, info->name, why);
 }
 
 /* From the best to what needs least. */
-static const gn_method chain[] = {GN_METHOD_STENCIL, GN_METHOD_COUNT, GN_METHOD_SIGNED, GN_METHOD_ALPHA,
-                                  GN_METHOD_SCREEN};
+static const gn_method chain[] = {GNI_HAS_CULLING ? GN_METHOD_STENCIL : GN_METHOD_ZFAIL, GN_METHOD_COUNT,
+                                  GN_METHOD_SIGNED, GN_METHOD_ALPHA, GN_METHOD_SCREEN};
 
 /* The first of the chain that is possible, or GN_METHOD_AUTO; the reason is why the one before was not. */
 static gn_method pick(const gn_scene *s, gni_text *reason, gni_text *first_why)
 {
     char last[128] = "";
 
-    for (size_t i = 0; i < sizeof chain / sizeof chain[0]; i++) {
+    for (size_t i = 0; i < (GNI_HAS_FALLBACK ? sizeof chain / sizeof chain[0] : 1); i++) {
         char text[128];
         gni_text why;
 
@@ -160,12 +185,13 @@ gn_result gni_choose(gn_context *context, const gn_scene *s, gni_choice *choice)
         gni_choose_color(s, choice);
     else
         choose_layout(s, choice);
-    choice->is_refined = choice->method == GN_METHOD_REFINE;
+    choice->is_refined = GNI_HAS_REFINE && choice->method == GN_METHOD_REFINE;
     if (choice->is_refined)
         gni_patch_layout(&choice->stencil, 1); /* of what is not contested */
-    gni_choose_masks(s, choice);
+    if (GNI_HAS_FALLBACK)
+        gni_choose_masks(s, choice);
     choose_far(s, choice);
-    if (s->follows && makes_masks_in_target(s, choice))
+    if (GNI_HAS_FALLBACK && s->follows && makes_masks_in_target(s, choice))
         return gn_fail(
             context, GN_E_DEVICE,
             "plan: method %s at scale 1/%lu makes masks in the target: it cannot follow another plan of the frame",

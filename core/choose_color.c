@@ -264,11 +264,16 @@ int gni_stencil_is_possible(const gn_scene *s, const char *name, gni_text *why)
     return !is_small(s) || (can_have_stencil_image(s) && can_carry_depth(s, name, why));
 }
 
+static int keeps_masks(const gn_scene *s)
+{
+    return GNI_HAS_CACHE && gni_keeps_masks(s);
+}
+
 static int may_take_stencil_to_texture(const gn_scene *s, const gni_choice *choice)
 {
     const int adds_several = s->light_count > 1 && s->lights_per_pass != 1 && !(s->without & GN_MEASURE_MASKS);
 
-    return choice->method == GN_METHOD_STENCIL && (adds_several || gni_keeps_masks(s)) && can_have_stencil_image(s);
+    return choice->method == GN_METHOD_STENCIL && (adds_several || keeps_masks(s)) && can_have_stencil_image(s);
 }
 
 /* Pixels that the lights reach, together; counts those that reach any. */
@@ -302,7 +307,7 @@ static int takes_stencil_to_texture(const gn_scene *s, const gni_choice *choice)
     uint32_t count = 0, group = s->lights_per_pass ? s->lights_per_pass : GN_MOST_MASKED;
     double areas, passes;
 
-    if (!may_take_stencil_to_texture(s, choice) || s->merges_lights || gni_keeps_masks(s))
+    if (!may_take_stencil_to_texture(s, choice) || s->merges_lights || keeps_masks(s))
         return may_take_stencil_to_texture(s, choice);
     areas = find_areas(s, &count);
     passes = (count + group - 1) / group;
@@ -333,7 +338,7 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
             can(s, GN_CAN_FBO_RGBA4) && !gni_carries_depth(s) ? GN_FORMAT_RGBA4 : GN_FORMAT_RGBA8;
         choice->image.depth_bits = 24;
         choice->image.stencil_bits = 8;
-        if (gni_keeps_masks(s))
+        if (keeps_masks(s))
             gni_put(&choice->text, "; masks are made in a texture, to be kept");
         else if (!is_small(s))
             gni_put(&choice->text, "; masks are made in a texture, so that one pass adds several lights");
@@ -349,7 +354,7 @@ void gni_choose_masks(const gn_scene *s, gni_choice *choice)
     if (is_small(s) && !choice->is_refined)
         gni_put(&choice->text, "; masks at scale 1/%lu, as asked for: not exact", (unsigned long)s->scale);
     if (choice->mask != GN_MASK_TEXTURE) {
-        if (gni_keeps_masks(s))
+        if (keeps_masks(s))
             gni_put(&choice->text, "; masks are made in each frame, being no textures that the host reads");
         return;
     }

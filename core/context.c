@@ -70,7 +70,10 @@ void gn_context_destroy(gn_context *context)
 
 const char *gn_message(const gn_context *context)
 {
-    return context ? context->message : "no context";
+    if (!context)
+        return "no context";
+    return GNI_HAS_MESSAGES || context->message[0] ? context->message
+                                                   : "an error (this build lacks the feature messages)";
 }
 
 const gn_port *gn_context_port(const gn_context *context)
@@ -78,7 +81,7 @@ const gn_port *gn_context_port(const gn_context *context)
     return context ? &context->port : NULL;
 }
 
-gn_result gn_fail(gn_context *context, gn_result result, const char *format, ...)
+gn_result(gn_fail)(gn_context *context, gn_result result, const char *format, ...)
 {
     va_list args;
 

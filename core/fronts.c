@@ -95,7 +95,7 @@ static void find_fronts(gni_fronts *f, const gni_draft *d, uint32_t index)
         const uint64_t all = rest < GNI_CLUSTER ? ((uint64_t)1 << rest) - 1 : ~(uint64_t)0;
         const uint64_t bits = ~d->facing[1][c] & all;
 
-        if (bits == all && mesh->nodes[c].radius < SMALL * mesh->radius)
+        if (GNI_HAS_CLUSTERS && bits == all && mesh->nodes[c].radius < SMALL * mesh->radius)
             add_ball(&mesh->nodes[c], rows, range);
         else
             add_triangles(mesh, c, bits, rows, range);

@@ -52,7 +52,7 @@ const char *gn_capability_summary(gn_capability capability);
 
 /* Adds the capabilities of a list of names, separated by commas, to *set. NULL and "" are empty lists. Returns NULL, or
  * where the first name starts that is none; *set is then untouched. */
-const char *gn_capability_parse(const char *names, uint32_t *set);
+const char *gn_capability_parse(const char *list, uint32_t *set);
 
 #ifdef __cplusplus
 }

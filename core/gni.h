@@ -2,6 +2,7 @@
 #ifndef GNI_H
 #define GNI_H
 #include "gn_matrix.h"
+#include "gni_features.h"
 #include "gnomon.h"
 
 #define GNI_NONE 0xffffffffu
@@ -121,7 +122,7 @@ void gni_judge_parts(gn_mesh *mesh);
 /* embedded.c: 1 when the part is proven not to touch or pass through itself but where its triangles share vertices;
  * 0 when that is not so or not sure; -1 when memory ran out. */
 int gni_part_is_embedded(const gn_mesh *mesh, const gni_part *part);
-/* Of those that a point inside sees all of: quickly, and without memory. */
+/* star.c: the same of those that a point inside sees all of: quickly, and without memory. */
 int gni_part_is_star(const gn_mesh *mesh, const gni_part *part);
 
 /* groups.c: mesh->facing_planes. */
@@ -133,9 +134,13 @@ gn_result gni_make_clusters(gn_mesh *mesh);
 /* Lanes and nodes, from planes and positions. */
 void gni_fill_clusters(gn_mesh *mesh);
 
-/* facing.c: bits of triangles that show front, or back, to the light; [cluster_count] each. By the tree, and without;
- * return how many triangles were looked at. */
+/* facing.c: bits of triangles that show front, or back, to the light; [cluster_count] each. Returns how many triangles were looked at. */
 uint32_t gni_find_facing(const gn_mesh *mesh, const double light[4], uint64_t *front, uint64_t *back);
+/* The truth, of one cluster: triangle by triangle in double. */
+void gni_look_closely(const gn_mesh *mesh, uint32_t cluster, const double light[4], uint64_t *front, uint64_t *back);
+
+/* facing_floats.c: the same, by the tree, and without. */
+uint32_t gni_search_facing(const gn_mesh *mesh, const double light[4], uint64_t *front, uint64_t *back);
 uint32_t gni_scan_facing(const gn_mesh *mesh, const double light[4], uint64_t *front, uint64_t *back);
 
 /* casting.c */
@@ -146,6 +151,8 @@ void gni_find_object_casting(const gn_object *object, const gn_light *light, gni
 /* The light in the space of an object's mesh, less its centre: independent of the camera. 0 when the matrix is
  * singular. */
 int gni_light_in_object(const gn_light *light, const gn_object *object, double out[4]);
+/* Whether it is surely outside the box of the object's mesh. */
+int gni_light_is_outside(const gn_light *light, const gn_object *object);
 /* From `of`: all else. */
 void gni_find_bits(const gn_mesh *mesh, gni_casting *c);
 
@@ -229,6 +236,17 @@ uint32_t gni_put_dark_cap(const gn_mesh *mesh, uint32_t chunk, const gni_casting
 /* Of the triangles whose casting is `turn`. */
 uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk, const gni_casting *c, int8_t turn, uint16_t *out);
 
+/* A build without culling has no others than perspective cameras whose far plane is at infinity. */
+static inline int gni_is_orthographic(const gn_camera *camera)
+{
+    return GNI_HAS_CULLING && camera->orthographic;
+}
+
+static inline int gni_has_finite_far(const gn_camera *camera)
+{
+    return GNI_HAS_CULLING && camera->finite_far;
+}
+
 /* camera.c */
 gn_result gni_check_camera(gn_context *context, const gn_camera *camera);
 /* World to view with the eye subtracted first: object positions less `centre` to view space. */
@@ -265,11 +283,26 @@ void gni_put(gni_text *t, const char *format, ...)
     __attribute__((format(printf, 2, 3)))
 #endif
     ;
+#if !GNI_HAS_MESSAGES
+#define gni_put(text, ...) (0 ? (gni_put)((text), __VA_ARGS__) : (void)0)
+#endif
 
-/* methods.c */
-int gni_models_less(gn_method method); /* leaves out what a scene does not require */
-int gni_counts_in_color(gn_method method);
-int gni_cuts_casters(gn_method method); /* that are too much alone: of those that count in colour */
+/* Whether it leaves out what a scene does not require. */
+static inline int gni_models_less(gn_method method)
+{
+    return GNI_HAS_CULLING && method != GN_METHOD_ZFAIL && method != GN_METHOD_ZPASS;
+}
+
+static inline int gni_counts_in_color(gn_method method)
+{
+    return GNI_HAS_FALLBACK && method >= GN_METHOD_COUNT && method < GN_METHOD_TOTAL;
+}
+
+/* That are too much alone: of those that count in colour. */
+static inline int gni_cuts_casters(gn_method method)
+{
+    return method == GN_METHOD_COUNT || method == GN_METHOD_SIGNED;
+}
 
 /* choose.c */
 typedef struct gni_choice {
@@ -333,7 +366,10 @@ typedef struct gni_hull {
 } gni_hull;
 
 void gni_cross(double out[3], const double a[3], const double b[3]);
-double gni_dot(const double a[3], const double b[3]);
+static inline double gni_dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 /* Three axes of unit length, at right angles, the third along `axis` (not 0). */
 void gni_make_axes(double axes[3][3], const double axis[3]);
 /* The box around a mesh, in view space. */
@@ -356,7 +392,6 @@ int gni_is_outside(const gni_hull *hull, const double plane[4]);
  * 0. */
 int gni_lies_before(const gni_hull *hull, const double plane[4]);
 int gni_is_before(const gni_hull *hull, const double plane[4]);
-int gni_light_is_outside(const gni_hull *box, const double light[4]);
 
 /* fan.c: scratch of a walk along a silhouette. */
 typedef struct gni_walk {
@@ -418,7 +453,7 @@ void gni_find_rectangle(uint32_t out[4], const gni_hull *hull, const gn_camera *
  * same. */
 void gni_find_balls_rectangle(uint32_t out[4], const double a[4], const double b[4], const gn_camera *camera,
                               const gn_target *target);
-/* Of a light that no bound is known of, or asked for. */
+/* plan_light.c: of a light that no bound is known of, or asked for. */
 void gni_no_bounds(gni_bounds *out, const gn_scene *scene, const double light[4]);
 /* view: from world to view space. */
 void gni_find_bounds(gni_bounds *out, const gn_scene *scene, uint32_t light_index, const double light[4],

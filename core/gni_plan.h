@@ -210,6 +210,61 @@ typedef struct gni_draft {
     uint64_t casting_count, cheap_layers;
 } gni_draft;
 
+/* What a build without the feature never is. */
+static inline int gni_is_colored(const gni_draft *d)
+{
+    return GNI_HAS_FALLBACK && d->is_colored;
+}
+
+static inline int gni_is_refined(const gni_draft *d)
+{
+    return GNI_HAS_REFINE && d->choice.is_refined;
+}
+
+static inline int gni_is_batched(const gni_draft *d)
+{
+    return GNI_HAS_BATCHES && d->is_batched;
+}
+
+static inline int gni_uses_patches(const gni_draft *d)
+{
+    return GNI_HAS_CULLING && d->uses_patches;
+}
+
+/* Whether volumes must end. */
+static inline int gni_has_region(const gni_draft *d)
+{
+    return GNI_HAS_CULLING && d->region;
+}
+
+static inline int gni_has_slot(const gni_draft *d)
+{
+    return GNI_HAS_CACHE && d->slot;
+}
+
+static inline int gni_has_layers(const gni_draft *d)
+{
+    return GNI_HAS_BATCHES && d->layers;
+}
+
+/* Whether lights are added to ambient, and shadows dim nothing. */
+static inline int gni_is_additive(const gni_draft *d)
+{
+    return !GNI_HAS_FALLBACK || d->scene->shade == GN_SHADE_ADDITIVE;
+}
+
+/* Whether the host's passes read masks. */
+static inline int gni_reads_masks(const gni_draft *d)
+{
+    return GNI_HAS_FALLBACK && d->plan->mask == GN_MASK_TEXTURE;
+}
+
+/* Whether masks become textures. */
+static inline int gni_makes_textures(const gni_draft *d)
+{
+    return GNI_HAS_FALLBACK && d->choice.mask_format != GN_FORMAT_NONE;
+}
+
 /* plan.c */
 gn_step *gni_add_step(gni_draft *d, gn_step_kind kind, gn_draw draw, uint32_t light, int receivers);
 
@@ -221,6 +276,8 @@ void gni_add_surfaces(gni_draft *d);
 void gni_start_frame(gni_draft *d);
 /* What a light under a stencil or alpha adds, before the next one's mask. */
 void gni_add_own_passes(gni_draft *d, uint32_t light);
+/* Ends a batch: its step of volumes, and one that folds it if more follows. */
+void gni_end_batch(gni_draft *d, int more_follows);
 /* Takes back the steps that were to make masks, and their image: no light has a shadow. */
 void gni_need_no_masks(gni_draft *d, uint32_t first_step);
 /* The steps before the first light of a mask texture. */
@@ -354,6 +411,12 @@ typedef struct gni_volume {
     int unpatched; /* as in gn_record */
 } gni_volume;
 
+/* Where the parts of a chunk are, one behind the other, the turned cap wherever. */
+typedef struct gni_run {
+    uint32_t first, first_turned, light_cap, sides, dark_cap, near_cap, turned_cap; /* indices */
+    int fan;
+} gni_run;
+
 /* fragments.c: no pixel gets more fragments of one side of a volume than this. */
 uint32_t gni_most_fragments(gni_draft *d, const gni_volume *v, const gni_casting *casting);
 
@@ -391,13 +454,25 @@ void gni_plane_before(double out[4], const double plane[4], const double m[16]);
 /* A bound on the layers of a caster that costs no more than to look: half the silhouette, seen from outside. GNI_NONE:
  * it is not known. */
 void gni_note_layers(gni_draft *d, uint32_t object, uint32_t triangles, uint32_t silhouette);
-/* Records from the slot at hand; 0 where it has no room. */
-int gni_add_kept_records(gni_draft *d, const gni_volume *volumes, uint32_t count);
-/* Fans of the same caster on patches, into d->flats. first_record: of its volume, if it has one. */
-void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record);
 /* Records of volumes of one caster, which share their indices: a record for each chunk that has any of each. Returns
  * the sum of the silhouette's weights, or GNI_NONE where no sides are drawn. */
 uint32_t gni_add_records(gni_draft *d, const gni_volume *volumes, uint32_t count, const gni_casting *casting);
+/* A record before its indices; what it takes of them; and one whose counts are known becomes one of the plan's. */
+void gni_start_record(gn_record *r, const gni_draft *d, const gni_volume *v, const uint32_t scissor[4], uint32_t chunk);
+void gni_use_run(gn_record *r, const gni_run *run, unsigned parts);
+void gni_keep_record(gni_draft *d, gn_record *r);
+/* Whether the dark cap of a volume that ends on a plane is better a fan. */
+int gni_is_better_fan(const gn_mesh *mesh, uint32_t edges, uint32_t triangles);
+
+/* kept_records.c: from the slot at hand; 0 where it has no room. */
+int gni_add_kept_records(gni_draft *d, const gni_volume *volumes, uint32_t count);
+/* What a stream has of a chunk. *at: where that starts; on return where it ends. */
+gni_run gni_find_run(const gni_stream *stream, int kind, uint32_t chunk, uint32_t *at);
+/* Of closed meshes a fan; but counts in colour stop at the ends, and a fan's triangles may lie on each other. */
+int gni_kind_of_cap(const gni_draft *d, const gn_mesh *mesh);
+
+/* flats.c: fans of the same caster on patches, into d->flats. first_record: of its volume, if it has one. */
+void gni_add_flats(gni_draft *d, uint32_t object, const gni_extent *extent, uint32_t first_record);
 
 /* sweep.c: no point has more layers of the records from first_record on than this; UINT32_MAX where that is not
  * known. */
@@ -409,8 +484,6 @@ uint32_t gni_sweep_caster(gni_draft *d, uint32_t first_record, uint32_t object);
 void gni_add_batched(gni_draft *d, const gni_volume *volume, const gni_casting *casting);
 /* Whether the light's casters, all with their records made from first_record on, surely keep within `limit` layers. */
 int gni_layers_fit(gni_draft *d, uint32_t limit, uint32_t first_record);
-/* Ends a batch: its step of volumes, and one that folds it if more follows. */
-void gni_end_batch(gni_draft *d, int more_follows);
 /* At most so many pieces of a caster with so many ends. */
 size_t gni_most_pieces(const gn_mesh *mesh, size_t ends, uint32_t limit);
 #endif

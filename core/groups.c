@@ -54,7 +54,6 @@ gn_result gni_make_groups(gn_mesh *mesh, double angle)
     const double cosine = cos(angle);
     uint32_t *queue;
 
-    mesh->facing_planes = mesh->planes;
     if (angle == 0.0)
         return GN_OK;
     queue = gni_alloc(context, triangles, sizeof *queue);

@@ -19,11 +19,6 @@ void gni_cross(double out[3], const double a[3], const double b[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-double gni_dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 void gni_make_axes(double axes[3][3], const double axis[3])
 {
     const double length = sqrt(gni_dot(axis, axis));
@@ -227,20 +222,4 @@ int gni_lies_before(const gni_hull *hull, const double plane[4])
 int gni_is_before(const gni_hull *hull, const double plane[4])
 {
     return least_side(hull, plane, -GNI_MARGIN) > 0.0;
-}
-
-int gni_light_is_outside(const gni_hull *box, const double light[4])
-{
-    const gni_hull at = {{{light[0], light[1], light[2]}}, 1, {{0}}, 0, {{0}}};
-
-    if (light[3] == 0.0)
-        return 1;
-    for (int i = 0; i < 3; i++) {
-        double axis[3];
-
-        gni_cross(axis, box->edges[i], box->edges[(i + 1) % 3]);
-        if (gni_separates(axis, &at, box))
-            return 1;
-    }
-    return 0;
 }

@@ -18,18 +18,21 @@ void gn_mesh_destroy(gn_mesh *mesh)
     gni_free(context, mesh->first_given);
     gni_free(context, mesh->order);
     gni_free(context, mesh->triangles);
-    if (mesh->facing_planes != mesh->planes)
+    if (GNI_HAS_WELDING && mesh->facing_planes != mesh->planes)
         gni_free(context, mesh->facing_planes);
-    gni_free(context, mesh->group_of);
+    if (GNI_HAS_WELDING)
+        gni_free(context, mesh->group_of);
     gni_free(context, mesh->planes);
     gni_free(context, mesh->edge_uses);
     gni_free(context, mesh->uses);
     gni_free(context, mesh->edge_of);
     gni_free(context, mesh->across);
-    gni_free(context, mesh->clusters);
-    gni_free(context, mesh->nodes);
-    gni_free(context, mesh->border_starts);
-    gni_free(context, mesh->borders);
+    if (GNI_HAS_CLUSTERS) {
+        gni_free(context, mesh->clusters);
+        gni_free(context, mesh->nodes);
+        gni_free(context, mesh->border_starts);
+        gni_free(context, mesh->borders);
+    }
     gni_free(context, mesh->scratch.of);
     gni_free(context, mesh->scratch.bits);
     gni_free(context, mesh->scratch.spare);
@@ -75,7 +78,7 @@ static void find_hub(gn_mesh *mesh)
 
     for (int axis = 0; axis < 3; axis++) /* halves, since the sum may be too much for a float */
         mesh->info.hub[axis] = 0.5f * mesh->info.box_min[axis] + 0.5f * mesh->info.box_max[axis];
-    for (uint32_t v = 0; v < mesh->info.vertex_count; v++) {
+    for (uint32_t v = 0; GNI_HAS_CULLING && v < mesh->info.vertex_count; v++) {
         double d[3], of_vertex;
 
         for (int axis = 0; axis < 3; axis++)
@@ -83,7 +86,7 @@ static void find_hub(gn_mesh *mesh)
         of_vertex = square_of(d);
         square = of_vertex > square ? of_vertex : square;
     }
-    mesh->radius = sqrt(square);
+    mesh->radius = GNI_HAS_CULLING ? sqrt(square) : 0.0;
 }
 
 void gni_find_planes(gn_mesh *mesh)
@@ -95,11 +98,13 @@ void gni_find_planes(gn_mesh *mesh)
     int is_alike = 1;
 
     mesh->largest = 0;
-    mesh->info.planar = mesh->info.triangle_count > 0;
+    mesh->info.planar = GNI_HAS_CULLING && mesh->info.triangle_count > 0;
     for (uint32_t t = 0; t < mesh->info.triangle_count; t++) {
         double *plane = mesh->planes + 4 * (size_t)t, square;
         const double edge = plane_of(positions, corners + 3 * (size_t)t, plane, &square);
 
+        if (!GNI_HAS_CULLING)
+            continue;
         longest = longest > edge ? longest : edge;
         if (square == 0.0) /* products of floats' differences do not vanish in doubles */
             continue;
@@ -119,7 +124,7 @@ void gni_find_planes(gn_mesh *mesh)
                 mesh->info.planar = 0;
         }
     }
-    mesh->longest_edge = sqrt(longest);
+    mesh->longest_edge = GNI_HAS_CULLING ? sqrt(longest) : 0.0;
     if (!first)
         mesh->info.planar = 0;
     else if (mesh->info.planar && is_alike)
@@ -137,10 +142,27 @@ static gn_result make_planes(gn_mesh *mesh)
     return GN_OK;
 }
 
+/* The order of the description. */
+static gn_result keep_order(gn_mesh *mesh)
+{
+    const size_t count = mesh->info.triangle_count;
+
+    mesh->order = gni_alloc(mesh->context, count, sizeof *mesh->order);
+    mesh->triangles = gni_alloc(mesh->context, count, 3 * sizeof *mesh->triangles);
+    if (!mesh->order || !mesh->triangles)
+        return gn_fail(mesh->context, GN_E_MEMORY, "mesh: no memory for %lu triangles", (unsigned long)count);
+    for (uint32_t t = 0; t < count; t++)
+        mesh->order[t] = t;
+    if (count)
+        memcpy(mesh->triangles, mesh->given, count * 3 * sizeof *mesh->triangles);
+    return GN_OK;
+}
+
 static gn_result make_scratch(gn_mesh *mesh)
 {
     gni_casting *c = &mesh->scratch;
 
+    mesh->cluster_count = (mesh->info.triangle_count + GNI_CLUSTER - 1) / GNI_CLUSTER;
     c->of = gni_alloc(mesh->context, (size_t)mesh->info.triangle_count + 1, 1);
     c->bits = gni_alloc(mesh->context, mesh->cluster_count, sizeof *c->bits);
     c->spare = gni_alloc(mesh->context, mesh->cluster_count, sizeof *c->spare);
@@ -170,6 +192,9 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
                        (unsigned long)GN_MAX_TRIANGLES);
     if (!(desc->weld_angle >= 0.0 && desc->weld_angle < 1.0))
         return gn_fail(context, GN_E_ARG, "gn_mesh_create: edges are welded by 0 to 1 radian (%g)", desc->weld_angle);
+    if (!GNI_HAS_WELDING && desc->weld_angle > 0.0)
+        return gn_fail(context, GN_E_ARG, "gn_mesh_create: this build lacks the feature welding (%g radian)",
+                       desc->weld_angle);
     mesh = gni_alloc(context, 1, sizeof *mesh);
     if (!mesh)
         return gn_fail(context, GN_E_MEMORY, "gn_mesh_create: no memory for a mesh");
@@ -177,7 +202,7 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
     mesh->context = context;
     result = gni_weld(mesh, desc);
     if (result == GN_OK)
-        result = gni_order_triangles(mesh);
+        result = GNI_HAS_CLUSTERS ? gni_order_triangles(mesh) : keep_order(mesh);
     if (result == GN_OK)
         result = make_planes(mesh);
     if (result == GN_OK)
@@ -186,9 +211,10 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
         result = gni_make_parts(mesh);
     if (result == GN_OK)
         result = gni_make_chunks(mesh);
-    if (result == GN_OK)
+    mesh->facing_planes = mesh->planes;
+    if (GNI_HAS_WELDING && result == GN_OK)
         result = gni_make_groups(mesh, desc->weld_angle);
-    if (result == GN_OK)
+    if (GNI_HAS_CLUSTERS && result == GN_OK)
         result = gni_make_clusters(mesh);
     if (result == GN_OK)
         result = make_scratch(mesh);

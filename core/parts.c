@@ -163,11 +163,12 @@ static void measure(gn_mesh *mesh, gni_part *part)
         const double *plane = mesh->planes + 4 * (size_t)mesh->part_triangles[part->first_triangle + i];
 
         volume -= plane[0] * origin[0] + plane[1] * origin[1] + plane[2] * origin[2] + plane[3];
-        normals += sqrt(gni_dot(plane, plane));
+        normals += GNI_HAS_REFINE ? sqrt(gni_dot(plane, plane)) : 0.0;
     }
     if (part->outward && volume < 0.0)
         part->outward = -1;
-    mesh->thickness = fmin(mesh->thickness, thickness_of(part, volume, normals));
+    if (GNI_HAS_REFINE)
+        mesh->thickness = fmin(mesh->thickness, thickness_of(part, volume, normals));
 }
 
 static void count_part(gn_mesh *mesh, const gni_part *part)
@@ -185,7 +186,7 @@ static gn_result classify(gn_mesh *mesh)
         part->is_closed = part->outward;
         measure(mesh, part);
         if (part->outward) {
-            const int embedded = gni_part_is_embedded(mesh, part);
+            const int embedded = GNI_HAS_SOLIDS ? gni_part_is_embedded(mesh, part) : gni_part_is_star(mesh, part);
 
             if (embedded < 0)
                 return GN_E_MEMORY;

@@ -51,6 +51,7 @@ static int lay_out(gni_draft *d, arena *a)
     const gn_scene *s = d->scene;
     const uint32_t limit = batch_limit(s);
     const int is_colored = gni_counts_in_color(gni_pick(s));
+    const size_t most_patches = GNI_HAS_CULLING ? GN_MOST_PATCHES : 0;
     size_t records = 0, chunks = 0, indices = 0, triangles = 0, all = 0, batches = 1, vertices = 0, largest = 0;
     const size_t most =
         UINT32_MAX / (s->light_count ? s->light_count : 1); /* of records and of indices, for each light */
@@ -63,10 +64,12 @@ static int lay_out(gni_draft *d, arena *a)
             largest = largest < mesh->info.triangle_count ? mesh->info.triangle_count : largest;
         if (!mesh || !(s->objects[i].flags & GN_CASTS))
             continue;
-        if (s->camera.orthographic)
+        if (gni_is_orthographic(&s->camera))
             ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
-        pieces = gni_most_pieces(mesh, ends, limit) + (is_colored ? GNI_SPARE_PIECES * ends : GNI_MOST_INTERVALS - 1);
-        if (mesh->info.chunk_count > (most - records) / (pieces + GN_MOST_PATCHES) ||
+        pieces = GNI_HAS_BATCHES ? gni_most_pieces(mesh, ends, limit) : 1;
+        if (GNI_HAS_CULLING)
+            pieces += is_colored ? GNI_SPARE_PIECES * ends : GNI_MOST_INTERVALS - 1;
+        if (mesh->info.chunk_count > (most - records) / (pieces + most_patches) ||
             mesh->info.triangle_count > (most - indices) / GNI_MOST_INDICES)
             return 0;
         records += mesh->info.chunk_count * pieces;
@@ -83,31 +86,33 @@ static int lay_out(gni_draft *d, arena *a)
      * folded, and zeroed. Refined, it is named and zeroed twice more, and its batches come again. */
     if (batches > (SIZE_MAX / 5 - 16) / (s->light_count ? s->light_count : 1))
         return 0;
-    d->steps = cut(
-        a, 8 + (size_t)s->light_count * (12 + GN_MOST_PATCHES + (gni_pick(s) == GN_METHOD_REFINE ? 5 : 3) * batches),
-        sizeof *d->steps);
+    d->steps =
+        cut(a, 8 + (size_t)s->light_count * (12 + most_patches + (gni_pick(s) == GN_METHOD_REFINE ? 5 : 3) * batches),
+            sizeof *d->steps);
     d->draws = cut(a, s->light_count, 1);
     d->lights = cut(a, s->light_count, sizeof *d->lights);
     d->objects = cut(a, s->object_count, sizeof *d->objects);
     d->casters = cut(a, (size_t)s->object_count * s->light_count, sizeof *d->casters);
     d->boxes = cut(a, s->object_count, sizeof *d->boxes);
-    d->rectangles = cut(a, s->object_count, sizeof *d->rectangles);
-    d->balls = cut(a, s->object_count, sizeof *d->balls);
     d->is_in = cut(a, s->object_count, 1);
-    d->fronts = cut(a, s->object_count, sizeof *d->fronts);
-    for (int i = 0; i < 2; i++)
-        d->facing[i] = cut(a, (largest + GNI_CLUSTER - 1) / GNI_CLUSTER, sizeof *d->facing[i]);
-    d->touched = cut(a, s->object_count, sizeof *d->touched);
-    d->heights = cut(a, s->object_count, sizeof *d->heights);
-    d->records = cut(a, (records + GN_MOST_PATCHES * chunks) * s->light_count, sizeof *d->records);
-    d->flats = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->flats);
-    d->outlines = cut(a, GN_MOST_PATCHES * chunks, sizeof *d->outlines);
-    d->walk.vertex_count = (uint32_t)(vertices < GN_CHUNK_VERTICES ? vertices : GN_CHUNK_VERTICES);
-    d->walk.first = cut(a, d->walk.vertex_count, sizeof *d->walk.first);
-    d->walk.next = cut(a, 3 * triangles, sizeof *d->walk.next);
-    d->walk.loop = cut(a, 3 * triangles + 1, sizeof *d->walk.loop);
+    d->records = cut(a, (records + most_patches * chunks) * s->light_count, sizeof *d->records);
     cut_casting(a, &d->casting, triangles);
-    if (gni_must_end(s)) {
+    if (GNI_HAS_CULLING) {
+        d->rectangles = cut(a, s->object_count, sizeof *d->rectangles);
+        d->balls = cut(a, s->object_count, sizeof *d->balls);
+        d->fronts = cut(a, s->object_count, sizeof *d->fronts);
+        for (int i = 0; i < 2; i++)
+            d->facing[i] = cut(a, (largest + GNI_CLUSTER - 1) / GNI_CLUSTER, sizeof *d->facing[i]);
+        d->touched = cut(a, s->object_count, sizeof *d->touched);
+        d->heights = cut(a, s->object_count, sizeof *d->heights);
+        d->flats = cut(a, most_patches * chunks, sizeof *d->flats);
+        d->outlines = cut(a, most_patches * chunks, sizeof *d->outlines);
+        d->walk.vertex_count = (uint32_t)(vertices < GN_CHUNK_VERTICES ? vertices : GN_CHUNK_VERTICES);
+        d->walk.first = cut(a, d->walk.vertex_count, sizeof *d->walk.first);
+        d->walk.next = cut(a, 3 * triangles, sizeof *d->walk.next);
+        d->walk.loop = cut(a, 3 * triangles + 1, sizeof *d->walk.loop);
+    }
+    if (GNI_HAS_CULLING && gni_must_end(s)) {
         cut_casting(a, &d->group, triangles);
         d->end_of = cut(a, triangles, 1);
         d->region = cut(a, 1, sizeof *d->region);
@@ -122,7 +127,7 @@ static int lay_out(gni_draft *d, arena *a)
         d->sectors = cut(a, 2, sizeof *d->sectors);
         d->columns = cut(a, GNI_COLUMN_WAYS, sizeof *d->columns);
     }
-    if (all > limit) {
+    if (GNI_HAS_BATCHES && all > limit) {
         d->layers = cut(a, 1, sizeof *d->layers);
         cut_casting(a, &d->piece, triangles);
         d->order = cut(a, triangles, sizeof *d->order);
@@ -178,6 +183,11 @@ static void find_range(gni_draft *d)
         d->plan->depth_range[1] = s->camera.znear + 1.0; /* nothing in front of the camera */
 }
 
+static int may_be_seen(const gni_draft *d, uint32_t object)
+{
+    return !GNI_HAS_CULLING || gni_may_be_seen(&d->seen, &d->boxes[object]);
+}
+
 /* A step of depth at the view distance z is z^2 / (n 2^bits) wide. Surface and side are each rounded to one, the side
  * is drawn one behind, and interpolation adds another: from where four are larger than half a pixel on, edges may stray by
  * more than that. */
@@ -185,23 +195,25 @@ static void find_depth_limit(gni_draft *d)
 {
     const gn_scene *s = d->scene;
     const gn_camera *c = &s->camera;
-    const double half = 0.5 * (d->choice.is_refined ? 1 : d->plan->scale) *
+    const double half = 0.5 * (gni_is_refined(d) ? 1 : d->plan->scale) *
                         fmin((c->top - c->bottom) / s->target.height, (c->right - c->left) / s->target.width);
     const double steps = ldexp(0.25, s->target.depth_bits);
     double farthest = -INFINITY, nearest = INFINITY;
 
     for (uint32_t i = 0; i < s->object_count; i++) {
-        if (!(s->objects[i].flags & GN_RECEIVES) || !gni_may_be_seen(&d->seen, &d->boxes[i]))
+        if (!(s->objects[i].flags & GN_RECEIVES) || !may_be_seen(d, i))
             continue;
         for (int corner = 0; corner < 8; corner++) {
             farthest = fmax(farthest, -d->boxes[i].points[corner][2]);
             nearest = fmin(nearest, -d->boxes[i].points[corner][2]);
         }
     }
-    d->plan->mask_depth[0] = c->orthographic ? 0.5 : fmax(c->znear, nearest < INFINITY ? nearest : 0.0);
-    d->plan->mask_depth[1] = c->orthographic ? 0.5 : 0.0;
+    if (GNI_HAS_FALLBACK) {
+        d->plan->mask_depth[0] = gni_is_orthographic(c) ? 0.5 : fmax(c->znear, nearest < INFINITY ? nearest : 0.0);
+        d->plan->mask_depth[1] = gni_is_orthographic(c) ? 0.5 : 0.0;
+    }
     d->plan->deepest_receiver = c->zfar != 0.0 ? fmin(farthest, c->zfar) : farthest;
-    if (c->orthographic)
+    if (gni_is_orthographic(c))
         d->plan->depth_limit = (d->plan->depth_range[1] - d->plan->depth_range[0]) / steps > half ? c->znear : INFINITY;
     else
         d->plan->depth_limit = c->znear * half * steps;
@@ -243,7 +255,7 @@ static void widen(gn_scene *own)
     const uint32_t scale = scale_of(own), size[2] = {own->target.width, own->target.height};
     gn_camera *c = &own->camera;
 
-    if (scale == 1)
+    if (!GNI_HAS_FALLBACK || scale == 1)
         return;
     own->target.width = (size[0] + scale - 1) / scale * scale;
     own->target.height = (size[1] + scale - 1) / scale * scale;
@@ -258,7 +270,8 @@ static void start_plan(gni_draft *d)
 
     memset(plan, 0, sizeof *plan);
     memset(d->lights, 0, s->light_count * sizeof *d->lights);
-    memset(d->walk.first, 0xff, d->walk.vertex_count * sizeof *d->walk.first); /* GNI_NONE */
+    if (GNI_HAS_CULLING)
+        memset(d->walk.first, 0xff, d->walk.vertex_count * sizeof *d->walk.first); /* GNI_NONE */
     plan->target = s->target;
     plan->blend_once = s->blend_once;
     plan->mask = d->choice.mask;
@@ -267,9 +280,9 @@ static void start_plan(gni_draft *d)
     plan->image = d->choice.image;
     plan->mask_format = d->choice.mask_format;
     plan->scale = scale_of(s);
-    plan->upsample = d->choice.is_refined ? GN_UPSAMPLE_BILINEAR : s->upsample;
-    plan->sharpen = s->sharpen && plan->scale > 1 && !d->choice.is_refined;
-    plan->carries_depth = gni_carries_depth(s);
+    plan->upsample = gni_is_refined(d) ? GN_UPSAMPLE_BILINEAR : s->upsample;
+    plan->sharpen = s->sharpen && plan->scale > 1 && !gni_is_refined(d);
+    plan->carries_depth = GNI_HAS_FALLBACK && gni_carries_depth(s);
     plan->viewport[0] = s->target.width;
     plan->viewport[1] = s->target.height;
     for (int i = 0; i < 2; i++)
@@ -283,7 +296,7 @@ static void start_plan(gni_draft *d)
     plan->object_count = s->object_count;
     plan->casters = d->casters;
     plan->depth_range[0] = s->camera.znear;
-    plan->depth_range[1] = s->camera.finite_far ? s->camera.zfar : INFINITY;
+    plan->depth_range[1] = gni_has_finite_far(&s->camera) ? s->camera.zfar : INFINITY;
     plan->clear_depth = 1.0;
 }
 
@@ -300,7 +313,7 @@ static void round_near(gni_draft *d, gn_scene *own)
         const gn_object *object = &own->objects[i];
         double model_view[16];
 
-        if (!gni_may_be_seen(&d->seen, &d->boxes[i]))
+        if (!may_be_seen(d, i))
             continue;
         gni_model_view(model_view, c, object->model, object->mesh->info.centre);
         farthest = fmax(farthest, fabs(model_view[14]));
@@ -308,7 +321,7 @@ static void round_near(gni_draft *d, gn_scene *own)
             farthest = fmax(farthest, fabs(d->boxes[i].points[corner][2]));
     }
     d->plan->farthest_vertex = farthest;
-    if (c->orthographic || c->finite_far || farthest == 0.0)
+    if (gni_is_orthographic(c) || gni_has_finite_far(c) || farthest == 0.0)
         return;
     frexp(farthest, &exponent);
     step = ldexp(1.0, exponent - 24);
@@ -335,30 +348,37 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
 
         gni_model_view(model_view, &s->camera, s->objects[i].model, s->objects[i].mesh->info.centre);
         gni_box_hull(&d->boxes[i], &s->objects[i].mesh->info, model_view);
-        gni_find_ball(d->balls[i], &d->boxes[i], s->objects[i].mesh, model_view);
-        gni_find_rectangle(d->rectangles[i], &d->boxes[i], &s->camera, &s->target);
-        gni_find_balls_rectangle(of_ball, d->balls[i], d->balls[i], &s->camera, &s->target);
-        gni_meet_rectangles(d->rectangles[i], of_ball);
+        if (GNI_HAS_CULLING) {
+            gni_find_ball(d->balls[i], &d->boxes[i], s->objects[i].mesh, model_view);
+            gni_find_rectangle(d->rectangles[i], &d->boxes[i], &s->camera, &s->target);
+            gni_find_balls_rectangle(of_ball, d->balls[i], d->balls[i], &s->camera, &s->target);
+            gni_meet_rectangles(d->rectangles[i], of_ball);
+        }
         d->receivers_are_known |= (s->objects[i].flags & GN_RECEIVES) != 0;
     }
-    gni_make_view(&d->seen, &s->camera, &s->target, d->whole);
+    if (GNI_HAS_CULLING)
+        gni_make_view(&d->seen, &s->camera, &s->target, d->whole);
     round_near(d, own);
-    if (d->region)
+    if (gni_has_region(d))
         gni_receiver_region(d->region, s);
-    if (s->camera.orthographic)
+    if (gni_is_orthographic(&s->camera))
         find_range(d);
-    if (s->camera.zfar != 0.0 && !s->camera.finite_far)
+    if (s->camera.zfar != 0.0 && !gni_has_finite_far(&s->camera))
         d->plan->clear_depth = gni_depth_of(&s->camera, d->plan->depth_range, s->camera.zfar);
     gni_projection(d->projection, &s->camera, d->plan->depth_range);
-    gni_model_view(d->view, &s->camera, identity, no_centre);
-    gni_make_view(&d->seen, &s->camera, &s->target, d->whole);
+    if (GNI_HAS_CULLING)
+        gni_model_view(d->view, &s->camera, identity, no_centre);
+    if (GNI_HAS_CULLING)
+        gni_make_view(&d->seen, &s->camera, &s->target, d->whole);
     find_depth_limit(d);
     gni_start_stain(d);
     result = place_objects(d);
     if (result != GN_OK)
         return result;
-    for (uint32_t i = 0; i < s->object_count && d->choice.is_refined; i++)
+    for (uint32_t i = 0; i < s->object_count && gni_is_refined(d); i++)
         d->objects[i].thin = (uint8_t)gni_is_thin_image(d, i);
+    if (!GNI_HAS_CULLING)
+        return GN_OK;
     gni_find_patches(d);
     gni_find_fronts(d);
     d->plan->patch_count = d->patch_count;
@@ -395,7 +415,7 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
     d = &work->draft;
     own = &work->scene;
     *own = *scene;
-    if (own->method == GN_METHOD_REFINE) {
+    if (GNI_HAS_REFINE && own->method == GN_METHOD_REFINE) {
         own->scale = own->scale < 2 ? 2 : own->scale;
         own->without |= GN_MEASURE_PATCHES; /* their bits name what is not contested */
     }
@@ -407,21 +427,23 @@ gn_result gn_plan_make(gn_context *context, const gn_scene *scene, void *memory,
         return result;
     lay_out(d, &a);
     d->is_colored = gni_counts_in_color(d->choice.method);
-    if (d->choice.image.depth_bits && !(d->choice.is_refined && own->target.depth_bits < d->choice.image.depth_bits))
+    if (GNI_HAS_FALLBACK && d->choice.image.depth_bits &&
+        !(gni_is_refined(d) && own->target.depth_bits < d->choice.image.depth_bits))
         own->target.depth_bits = d->choice.image.depth_bits;
     widen(own);
-    if (own->shade != GN_SHADE_ADDITIVE) /* what is not lit is dimmed too: shadows must reach it */
+    if (!gni_is_additive(d)) /* what is not lit is dimmed too: shadows must reach it */
         own->without |= GN_MEASURE_ENDS | GN_MEASURE_PATCHES | GN_MEASURE_INTERVALS | GN_MEASURE_SCISSORS;
     start_plan(d);
     d->plan->target = scene->target;
     result = make_frame(d, own);
     if (result != GN_OK)
         return result;
-    if (scene->cache)
+    if (GNI_HAS_CACHE && scene->cache)
         gni_start_cache(scene->cache, scene);
     result = gni_add_passes(d);
-    gni_estimate_traffic(d->plan);
-    if (scene->cache)
+    if (GNI_HAS_SELECTOR)
+        gni_estimate_traffic(d->plan);
+    if (GNI_HAS_CACHE && scene->cache)
         gni_end_cache(scene->cache, d->plan);
     if (result == GN_OK)
         *plan = d->plan;

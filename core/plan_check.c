@@ -13,7 +13,7 @@ static int in_range(const double *v, int count)
 }
 
 /* What bounds a light; zero is lawful everywhere. */
-static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned long i, uint32_t object_count)
+static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned long i)
 {
     const int has_cone = l->kind == GN_LIGHT_SPOT && l->cone != 0.0;
 
@@ -33,13 +33,6 @@ static gn_result check_bounds(gn_context *context, const gn_light *l, unsigned l
             return gn_fail(context, GN_E_ARG, "plan: light %lu has a box from %g to %g", i, l->box_min[c],
                            l->box_max[c]);
     }
-    if (l->exempt_count && !l->exempt)
-        return gn_fail(context, GN_E_ARG, "plan: light %lu exempts %lu objects at NULL", i,
-                       (unsigned long)l->exempt_count);
-    for (uint32_t e = 0; e < l->exempt_count; e++)
-        if (l->exempt[e] >= object_count)
-            return gn_fail(context, GN_E_ARG, "plan: light %lu exempts object %lu of %lu", i,
-                           (unsigned long)l->exempt[e], (unsigned long)object_count);
     return GN_OK;
 }
 
@@ -55,18 +48,29 @@ static gn_result check_light(gn_context *context, const gn_light *l, unsigned lo
         return gn_fail(context, GN_E_ARG, "plan: light %lu comes from %g %g %g", i, v[0], v[1], v[2]);
     if (l->kind == GN_LIGHT_DIRECTIONAL && v[0] == 0.0 && v[1] == 0.0 && v[2] == 0.0)
         return gn_fail(context, GN_E_ARG, "plan: light %lu comes from no direction: %g %g %g", i, v[0], v[1], v[2]);
-    return check_bounds(context, l, i, object_count);
+    if (l->exempt_count && !l->exempt)
+        return gn_fail(context, GN_E_ARG, "plan: light %lu exempts %lu objects at NULL", i,
+                       (unsigned long)l->exempt_count);
+    for (uint32_t e = 0; e < l->exempt_count; e++)
+        if (l->exempt[e] >= object_count)
+            return gn_fail(context, GN_E_ARG, "plan: light %lu exempts object %lu of %lu", i,
+                           (unsigned long)l->exempt[e], (unsigned long)object_count);
+    return GNI_HAS_CULLING ? check_bounds(context, l, i) : GN_OK;
 }
 
 static gn_result check_object(gn_context *context, const gn_object *o, unsigned long i)
 {
     const double *m = o->model;
+    double inverse[16];
 
     if (!o->mesh)
         return gn_fail(context, GN_E_ARG, "plan: object %lu has no mesh", i);
     for (int k = 0; k < 16; k++)
         if (!in_range(m + k, 1))
             return gn_fail(context, GN_E_ARG, "plan: object %lu: element %d of its matrix is %g", i, k, m[k]);
+    if (!GNI_HAS_SOLIDS && !gn_mat4_invert_affine(inverse, m))
+        return gn_fail(context, GN_E_DEVICE,
+                       "plan: object %lu: this build lacks the feature solids, and its matrix has no inverse", i);
     if (!(o->error >= 0.0 && o->error <= GNI_MOST))
         return gn_fail(context, GN_E_ARG, "plan: object %lu has an error of %g", i, o->error);
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
@@ -75,17 +79,9 @@ static gn_result check_object(gn_context *context, const gn_object *o, unsigned 
     return GN_OK;
 }
 
-gn_result gni_check_scene(gn_context *context, const gn_scene *s)
+/* How masks are made, and what they do to the frame. */
+static gn_result check_masks(gn_context *context, const gn_scene *s)
 {
-    gn_result result;
-
-    if ((s->light_count && !s->lights) || (s->object_count && !s->objects))
-        return gn_fail(context, GN_E_ARG, "plan: NULL array of lights or objects");
-    if (s->target.width == 0 || s->target.height == 0)
-        return gn_fail(context, GN_E_ARG, "plan: target of %lux%lu pixels", (unsigned long)s->target.width,
-                       (unsigned long)s->target.height);
-    if (!(s->least_light >= 0.0 && isfinite(s->least_light)))
-        return gn_fail(context, GN_E_ARG, "plan: the least light that matters is %g", s->least_light);
     if ((unsigned)s->shade > GN_SHADE_BLACK)
         return gn_fail(context, GN_E_ARG, "plan: no shade has number %d", (int)s->shade);
     if (!(s->dimmed >= 0.0 && s->dimmed < 1.0))
@@ -107,7 +103,39 @@ gn_result gni_check_scene(gn_context *context, const gn_scene *s)
     if (s->lights_per_pass > GN_MOST_MASKED)
         return gn_fail(context, GN_E_ARG, "plan: %lu lights in a pass, at most %d", (unsigned long)s->lights_per_pass,
                        GN_MOST_MASKED);
-    result = gni_check_camera(context, &s->camera);
+    return GN_OK;
+}
+
+/* What this build is not made for (gni_features.h). */
+static gn_result check_features(gn_context *context, const gn_scene *s)
+{
+    const char *missing = NULL;
+
+    if (!GNI_HAS_CULLING && gni_must_end(s))
+        missing = "culling: the volumes of this camera, or on this target, must end";
+    if (!GNI_HAS_FALLBACK && (s->scale > 1 || s->shade != GN_SHADE_ADDITIVE))
+        missing = "fallback: masks are to be small, or the frame dimmed";
+    if (!GNI_HAS_CACHE && s->cache)
+        missing = "cache";
+    return missing ? gn_fail(context, GN_E_DEVICE, "plan: this build lacks the feature %s", missing) : GN_OK;
+}
+
+gn_result gni_check_scene(gn_context *context, const gn_scene *s)
+{
+    gn_result result;
+
+    if ((s->light_count && !s->lights) || (s->object_count && !s->objects))
+        return gn_fail(context, GN_E_ARG, "plan: NULL array of lights or objects");
+    if (s->target.width == 0 || s->target.height == 0)
+        return gn_fail(context, GN_E_ARG, "plan: target of %lux%lu pixels", (unsigned long)s->target.width,
+                       (unsigned long)s->target.height);
+    if (GNI_HAS_CULLING && !(s->least_light >= 0.0 && isfinite(s->least_light)))
+        return gn_fail(context, GN_E_ARG, "plan: the least light that matters is %g", s->least_light);
+    result = check_features(context, s);
+    if (GNI_HAS_FALLBACK && result == GN_OK)
+        result = check_masks(context, s);
+    if (result == GN_OK)
+        result = gni_check_camera(context, &s->camera);
     for (uint32_t i = 0; i < s->light_count && result == GN_OK; i++)
         result = check_light(context, &s->lights[i], i, s->object_count);
     for (uint32_t i = 0; i < s->object_count && result == GN_OK; i++)

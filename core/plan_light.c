@@ -24,6 +24,17 @@ void gni_light_in_view(const gn_camera *c, const gn_light *light, double out[4])
     out[3] = is_sun ? 0.0 : 1.0;
 }
 
+void gni_no_bounds(gni_bounds *out, const gn_scene *scene, const double light[4])
+{
+    memset(out, 0, sizeof *out);
+    memcpy(out->light, light, sizeof out->light);
+    out->reach = INFINITY;
+    out->scissor[2] = scene->target.width;
+    out->scissor[3] = scene->target.height;
+    out->distances[0] = scene->camera.znear;
+    out->distances[1] = INFINITY;
+}
+
 static int is_exempt(const gn_light *light, uint32_t object)
 {
     for (uint32_t i = 0; i < light->exempt_count; i++)
@@ -32,29 +43,15 @@ static int is_exempt(const gn_light *light, uint32_t object)
     return 0;
 }
 
-/* Why a caster is not drawn; else fills its case and extent. */
-static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand, gni_extent *extent)
+/* What the method stencil asks of a caster. */
+static gn_skip look_closely(const gni_draft *d, uint32_t object, gni_case *at_hand, gni_extent *extent)
 {
-    const gn_light *light = &d->scene->lights[d->light];
-    const gn_method method = d->lights[d->light].method;
-    const unsigned flags = d->scene->objects[object].flags, all_drawn = GN_DRAWN | GN_DRAWN_BACKS;
+    const unsigned all_drawn = GN_DRAWN | GN_DRAWN_BACKS;
     gni_hull volume;
     gni_view view;
     double plane[4];
     int is_flat;
 
-    memset(extent, 0, sizeof *extent); /* all patches are filled */
-    memcpy(extent->scissor, d->lights[d->light].scissor, sizeof extent->scissor);
-    memcpy(extent->image, extent->scissor, sizeof extent->image);
-    at_hand->is_drawn = (flags & all_drawn) == all_drawn;
-    at_hand->number = method == GN_METHOD_ZPASS ? 1 : 3;
-    at_hand->seen = GNI_SEES_CASTER | GNI_SEES_FAR | GNI_SEES_VOLUME;
-    if (!(flags & GN_CASTS))
-        return GN_SKIP_NO_CASTER;
-    if (is_exempt(light, object))
-        return GN_SKIP_EXEMPT;
-    if (!gni_models_less(method))
-        return GN_SKIP_NOT;
     if (!gni_may_cast(&d->bounds, &d->boxes[object]))
         return GN_SKIP_OUT_OF_REACH;
     gni_volume_hull(&volume, &d->boxes[object], d->bounds.light);
@@ -67,8 +64,28 @@ static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand, g
         return GN_SKIP_NO_RECEIVER;
     gni_make_view(&view, &d->scene->camera, &d->scene->target, extent->image);
     gni_find_case(at_hand, &view, &d->boxes[object], &volume, d->bounds.light);
-    at_hand->is_drawn = is_flat || (flags & all_drawn) == all_drawn;
+    at_hand->is_drawn = is_flat || (d->scene->objects[object].flags & all_drawn) == all_drawn;
     return at_hand->seen & GNI_SEES_VOLUME ? GN_SKIP_NOT : GN_SKIP_NO_RECEIVER;
+}
+
+/* Why a caster is not drawn; else fills its case and extent. */
+static gn_skip look_at(const gni_draft *d, uint32_t object, gni_case *at_hand, gni_extent *extent)
+{
+    const gn_light *light = &d->scene->lights[d->light];
+    const gn_method method = d->lights[d->light].method;
+    const unsigned flags = d->scene->objects[object].flags, all_drawn = GN_DRAWN | GN_DRAWN_BACKS;
+
+    memset(extent, 0, sizeof *extent); /* all patches are filled */
+    memcpy(extent->scissor, d->lights[d->light].scissor, sizeof extent->scissor);
+    memcpy(extent->image, extent->scissor, sizeof extent->image);
+    at_hand->is_drawn = (flags & all_drawn) == all_drawn;
+    at_hand->number = method == GN_METHOD_ZPASS ? 1 : 3;
+    at_hand->seen = GNI_SEES_CASTER | GNI_SEES_FAR | GNI_SEES_VOLUME;
+    if (!(flags & GN_CASTS))
+        return GN_SKIP_NO_CASTER;
+    if (is_exempt(light, object))
+        return GN_SKIP_EXEMPT;
+    return gni_models_less(method) ? look_closely(d, object, at_hand, extent) : GN_SKIP_NOT;
 }
 
 /* Records of all casters, in one batch or in as many as it takes. */
@@ -89,25 +106,26 @@ static gn_result add_casters(gni_draft *d)
 
         caster->mcguire_case = caster->parts = caster->fan = caster->is_ended = caster->patches = 0;
         caster->skip = (uint8_t)look_at(d, i, &at_hand, &extent);
-        for (uint32_t p = 0; p < d->patch_count; p++)
+        for (uint32_t p = 0; GNI_HAS_CULLING && p < d->patch_count; p++)
             caster->patches |= (uint8_t)((extent.on[p] == GNI_FANS_PATCH) << p);
         d->is_in[i] &= (uint8_t)~GNI_IN_CAST;
-        if (d->layers)
+        if (gni_has_layers(d))
             d->cheap_of[i] = 0;
         d->slot = NULL;
         d->casting_is_known = 0;
-        if (caster->skip == GN_SKIP_NOT || caster->patches)
+        if (GNI_HAS_CACHE && (caster->skip == GN_SKIP_NOT || caster->patches))
             d->slot = gni_find_slot(d, i);
         if (caster->skip == GN_SKIP_NOT)
             result = gni_add_caster(d, i, &at_hand, &extent);
-        if (caster->patches)
+        if (GNI_HAS_CULLING && caster->patches)
             gni_add_flats(d, i, &extent, before);
         if (d->plan->record_count > before || d->flat_count > flats) {
             const gn_object *object = &d->scene->objects[i];
 
             d->is_in[i] |= GNI_IN_CAST;
-            about->caster_error =
-                fmax(about->caster_error, (object->error + object->mesh->info.weld_error) * gni_stretch(object->model));
+            if (GNI_HAS_CULLING)
+                about->caster_error = fmax(about->caster_error, (object->error + object->mesh->info.weld_error) *
+                                                                    gni_stretch(object->model));
             caster->skip = GN_SKIP_NOT;
             about->casters++;
             if (caster->mcguire_case)
@@ -117,8 +135,10 @@ static gn_result add_casters(gni_draft *d)
             about->skipped_casters += caster->skip != GN_SKIP_NO_CASTER;
         }
     }
-    memcpy(d->records + d->plan->record_count, d->flats, d->flat_count * sizeof *d->flats);
-    d->plan->record_count += d->flat_count;
+    if (GNI_HAS_CULLING) {
+        memcpy(d->records + d->plan->record_count, d->flats, d->flat_count * sizeof *d->flats);
+        d->plan->record_count += d->flat_count;
+    }
     return result;
 }
 
@@ -143,17 +163,17 @@ static void set_way(gni_draft *d, int way, const gn_stencil_layout *layout)
 /* The steps before the light's volumes: a stencil that is clean where the light is, and patches named in it. */
 static void prepare_stencil(gni_draft *d)
 {
-    if (d->are_marked && !d->uses_patches) { /* their names are in the bits of the count now */
+    if (GNI_HAS_CULLING && d->are_marked && !d->uses_patches) { /* their names are in the bits of the count now */
         d->are_marked = 0;
         d->stain.at[0] = d->stain.at[1] = 0;
         d->stain.at[2] = d->scene->target.width;
         d->stain.at[3] = d->scene->target.height;
     }
     gni_clean_stencil(d, d->light);
-    if (d->uses_patches && !d->are_marked)
+    if (gni_uses_patches(d) && !d->are_marked)
         gni_add_step(d, GN_STEP_MARK, GN_DRAW_NOTHING, d->light, 0);
-    d->are_marked |= d->uses_patches;
-    for (uint32_t p = 0; p < d->patch_count && d->uses_patches; p++)
+    d->are_marked |= gni_uses_patches(d);
+    for (uint32_t p = 0; gni_uses_patches(d) && p < d->patch_count; p++)
         if (d->patches[p].use == GNI_PATCH_DARK) {
             gni_add_step(d, GN_STEP_DARKEN, GN_DRAW_NOTHING, d->light, 0);
             d->steps[d->plan->step_count - 1].patch = p + 1;
@@ -162,7 +182,7 @@ static void prepare_stencil(gni_draft *d)
 
 static int any_is_dark(const gni_draft *d)
 {
-    for (uint32_t p = 0; p < d->patch_count; p++)
+    for (uint32_t p = 0; GNI_HAS_CULLING && p < d->patch_count; p++)
         if (d->patches[p].use == GNI_PATCH_DARK)
             return 1;
     return 0;
@@ -175,11 +195,11 @@ static int fits(gni_draft *d, uint32_t first_record)
     const uint32_t high = (uint32_t)about->stencil.high;
 
     about->layers = (uint32_t)(d->cheap_layers < UINT32_MAX ? d->cheap_layers : UINT32_MAX);
-    return about->layers <= high || (d->layers && gni_layers_fit(d, high, first_record));
+    return about->layers <= high || (gni_has_layers(d) && gni_layers_fit(d, high, first_record));
 }
 
-/* Volumes and what they stand on, in one of three ways: with patches, if some is worth it; without; in batches. */
-static gn_result add_volumes(gni_draft *d)
+/* Volumes in the first of the ways from `way` on by which counts keep within the layout's bits. */
+static gn_result add_some_way(gni_draft *d, int way, int *is_long)
 {
     gn_plan_light *about = &d->lights[d->light];
     const gn_stencil_layout layout = about->stencil;
@@ -187,27 +207,45 @@ static gn_result add_volumes(gni_draft *d)
     const int were_marked = d->are_marked;
     const gn_plan plan = *d->plan;
     gn_result result = GN_OK;
-    int is_long = 0;
 
-    for (int way = d->patch_count ? 0 : 1; way < 3; way++) {
+    for (; way < 3; way++) {
         set_way(d, way, &layout);
         if (way == 2)
             prepare_stencil(d);
         result = add_casters(d);
-        is_long = !about->stencil.wrap && d->casting_count > (uint64_t)about->stencil.high;
+        *is_long = !about->stencil.wrap && d->casting_count > (uint64_t)about->stencil.high;
         if (result != GN_OK || way == 2 ||
             (fits(d, plan.record_count) && (way == 1 || d->flat_count || d->are_marked || any_is_dark(d))))
             break;
-        if (way == 1 && !d->layers)
+        if (way == 1 && !gni_has_layers(d)) {
+            *is_long |= !GNI_HAS_BATCHES;
             break;
+        }
         *d->plan = plan;
         d->stain = stain;
         d->are_marked = were_marked;
     }
-    if (!d->is_batched)
+    return result;
+}
+
+/* Volumes and what they stand on, in one of three ways: with patches, if some is worth it; without; in batches. */
+static gn_result add_volumes(gni_draft *d)
+{
+    const uint32_t record = d->plan->record_count;
+    int is_long = 0;
+    gn_result result;
+
+    if (GNI_HAS_CULLING) {
+        result = add_some_way(d, d->patch_count ? 0 : 1, &is_long);
+    } else { /* there is one */
+        d->first_of_batch = record;
+        result = add_casters(d);
+        is_long = !fits(d, record);
+    }
+    if (!gni_is_batched(d))
         prepare_stencil(d);
     d->plan->warnings |= is_long ? 1u << GN_WARN_OVERFLOW : 0u;
-    if (d->plan->record_count > plan.record_count || d->scene->blend_once || d->uses_patches)
+    if (d->plan->record_count > record || d->scene->blend_once || gni_uses_patches(d))
         gni_stain_stencil(d, d->light);
     gni_end_batch(d, 0);
     return result;
@@ -219,7 +257,7 @@ static void take_channel(gni_draft *d)
     gn_plan_light *about = &d->lights[d->light];
     const uint32_t index = d->mask_count++;
 
-    about->mask_texture = index / d->choice.lights_per_mask + (d->choice.is_refined ? 1 : 0);
+    about->mask_texture = index / d->choice.lights_per_mask + (gni_is_refined(d) ? 1 : 0);
     about->mask_channel = index % d->choice.lights_per_mask;
     if (about->mask_channel == 0)
         gni_start_mask(d);
@@ -259,18 +297,18 @@ static gn_result add_mask(gni_draft *d)
     gn_plan_light *about = &d->lights[d->light];
     const uint32_t first = d->plan->step_count, record = d->plan->record_count;
     const gni_stain stain = d->stain;
-    const int were_marked = d->are_marked, are_textures = d->choice.mask_format != GN_FORMAT_NONE;
+    const int were_marked = d->are_marked, are_textures = gni_makes_textures(d);
     uint32_t step;
     gn_result result;
 
     if (are_textures)
         take_channel(d);
     step = d->plan->step_count;
-    result = d->is_colored ? add_colored(d) : add_volumes(d);
-    about->is_shadowed = d->plan->record_count > record || (d->uses_patches && any_is_dark(d));
+    result = gni_is_colored(d) ? add_colored(d) : add_volumes(d);
+    about->is_shadowed = d->plan->record_count > record || (gni_uses_patches(d) && any_is_dark(d));
     if (!are_textures)
         return result;
-    if (about->is_shadowed && !d->is_colored && d->plan->step_count > step)
+    if (about->is_shadowed && !gni_is_colored(d) && d->plan->step_count > step)
         gni_add_step(d, GN_STEP_RESOLVE, GN_DRAW_NOTHING, d->light, 0);
     if (about->is_shadowed)
         return result;
@@ -303,6 +341,8 @@ static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
             continue;
         *any_receiver |= (object->flags & GN_RECEIVES) != 0;
         *any_other |= !(object->flags & GN_RECEIVES);
+        if (!GNI_HAS_CULLING)
+            continue;
         most = fmax(most, gni_most_light(&d->bounds, &s->lights[d->light], &d->boxes[i]));
         for (int corner = 0; corner < 8 && object->flags & GN_RECEIVES; corner++)
             for (int axis = 0; axis < 3; axis++) {
@@ -310,7 +350,7 @@ static double find_lit(gni_draft *d, int *any_receiver, int *any_other)
                 high[axis] = fmax(high[axis], d->boxes[i].points[corner][axis]);
             }
     }
-    if (low[0] <= high[0])
+    if (GNI_HAS_CULLING && low[0] <= high[0])
         gni_hull_around(&d->all_lit, low, high);
     return *any_receiver && !d->receivers_are_known ? INFINITY : most;
 }
@@ -322,7 +362,7 @@ static void find_depth_bounds(const gni_draft *d, gn_plan_light *about)
 
     about->depth_bounds[0] = 0.0;
     about->depth_bounds[1] = 1.0;
-    if (!gn_target_can(&d->scene->target, GN_CAN_DEPTH_BOUNDS))
+    if (!GNI_HAS_CULLING || !gn_target_can(&d->scene->target, GN_CAN_DEPTH_BOUNDS))
         return;
     for (int i = 0; i < 2; i++)
         if (isfinite(d->bounds.distances[i])) {
@@ -360,17 +400,19 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
     about->method = d->choice.method;
     about->stencil = d->choice.stencil;
     about->color = d->choice.color;
-    memcpy(about->reason, d->choice.reason, sizeof about->reason);
+    if (GNI_HAS_MESSAGES)
+        memcpy(about->reason, d->choice.reason, sizeof about->reason);
     gni_light_in_view(&d->scene->camera, &s->lights[light], at);
-    if (gni_models_less(about->method) && s->shade == GN_SHADE_ADDITIVE)
+    if (gni_models_less(about->method) && gni_is_additive(d))
         gni_find_bounds(&d->bounds, s, light, at, d->view);
     else
         gni_no_bounds(&d->bounds, s, at);
     about->reach = d->bounds.reach;
-    if (d->bounds.skip != GN_SKIP_NOT)
+    if (GNI_HAS_CULLING && d->bounds.skip != GN_SKIP_NOT)
         return skip_light(d, d->bounds.skip);
     memcpy(about->scissor, d->bounds.scissor, sizeof about->scissor);
-    gni_make_view(&d->seen, &s->camera, &s->target, about->scissor);
+    if (GNI_HAS_CULLING)
+        gni_make_view(&d->seen, &s->camera, &s->target, about->scissor);
     most = find_lit(d, &any_receiver, &any_other);
     if (gni_models_less(about->method)) {
         if (!any_receiver && !any_other)
@@ -381,11 +423,12 @@ gn_result gni_add_light(gni_draft *d, uint32_t light)
         }
     }
     find_depth_bounds(d, about);
-    gni_light_patches(d);
+    if (GNI_HAS_CULLING)
+        gni_light_patches(d);
     d->draws[light] = (uint8_t)((any_receiver ? GNI_DRAWS_RECEIVERS : 0) | (any_other ? GNI_DRAWS_OTHERS : 0));
-    if (any_receiver && !d->reuses_masks)
+    if (any_receiver && !(GNI_HAS_CACHE && d->reuses_masks))
         result = add_mask(d);
-    else if (any_receiver)
+    else if (GNI_HAS_CACHE && any_receiver)
         d->must_remake |= !gni_take_kept_mask(d);
     return result;
 }

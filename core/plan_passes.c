@@ -12,9 +12,9 @@ static gn_into into_of(const gni_draft *d, gn_step_kind kind, gn_draw draw)
 {
     const gn_plan *plan = d->plan;
     const int has_image = plan->image.format != GN_FORMAT_NONE && !d->is_refining;
-    const gn_into counted = has_image                                  ? GN_INTO_IMAGE
-                            : plan->scale > 1 && !d->choice.is_refined ? GN_INTO_CORNER
-                                                                       : GN_INTO_TARGET;
+    const gn_into counted = has_image                               ? GN_INTO_IMAGE
+                            : plan->scale > 1 && !gni_is_refined(d) ? GN_INTO_CORNER
+                                                                    : GN_INTO_TARGET;
 
     switch (kind) {
     case GN_STEP_ZERO:
@@ -61,12 +61,12 @@ static void add_draw(gni_draft *d, gn_draw draw)
 
 static int is_screen(const gni_draft *d)
 {
-    return d->choice.color.place == GN_PLACE_COLOR;
+    return GNI_HAS_FALLBACK && d->choice.color.place == GN_PLACE_COLOR;
 }
 
 void gni_add_surfaces(gni_draft *d)
 {
-    gni_add_step(d, GN_STEP_DRAW, d->plan->shade == GN_SHADE_ADDITIVE ? GN_DRAW_AMBIENT : GN_DRAW_LIT, GN_NO_LIGHT, 1);
+    gni_add_step(d, GN_STEP_DRAW, gni_is_additive(d) ? GN_DRAW_AMBIENT : GN_DRAW_LIT, GN_NO_LIGHT, 1);
 }
 
 void gni_start_frame(gni_draft *d)
@@ -80,7 +80,7 @@ void gni_start_frame(gni_draft *d)
 /* Whether the light's pass, or what dims its shadow, is needed of the receivers. */
 static int is_passed(const gni_draft *d, uint32_t light, unsigned draws)
 {
-    return d->draws[light] & draws && (d->plan->shade == GN_SHADE_ADDITIVE || d->lights[light].is_shadowed);
+    return d->draws[light] & draws && (gni_is_additive(d) || d->lights[light].is_shadowed);
 }
 
 /* Shadows have dimmed what does not receive too: it is drawn again. */
@@ -91,7 +91,7 @@ static void redraw_others(gni_draft *d)
 
     for (uint32_t i = 0; i < s->object_count; i++)
         any |= !(s->objects[i].flags & GN_RECEIVES);
-    if (any && d->receivers_are_known && d->plan->shade != GN_SHADE_ADDITIVE)
+    if (any && d->receivers_are_known && !gni_is_additive(d))
         gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIT, GN_NO_LIGHT, 0);
 }
 
@@ -124,7 +124,7 @@ void gni_start_mask(gni_draft *d)
     if (is_screen(d)) {
         if (texture > 0)
             copy_mask(d, texture - 1);
-    } else if (texture > 0 || d->choice.is_refined || !d->plan->image.stencil_bits) {
+    } else if (texture > 0 || gni_is_refined(d) || !d->plan->image.stencil_bits) {
         gni_add_step(d, GN_STEP_CLEAR_MASK, GN_DRAW_NOTHING, d->light, 0);
     }
 }
@@ -167,8 +167,8 @@ static void end_masks(gni_draft *d, uint32_t first_step)
 /* Lights of one mask texture, or those that need none, in one pass; or each in its own. */
 static void add_group(gni_draft *d, uint32_t *first, unsigned draws)
 {
-    const int receivers = draws == GNI_DRAWS_RECEIVERS, is_additive = d->plan->shade == GN_SHADE_ADDITIVE;
-    const uint32_t most = d->plan->mask == GN_MASK_TEXTURE ? d->choice.lights_per_mask : 1;
+    const int receivers = draws == GNI_DRAWS_RECEIVERS, is_additive = gni_is_additive(d);
+    const uint32_t most = gni_reads_masks(d) ? d->choice.lights_per_mask : 1;
     gn_step *step = NULL;
 
     for (; *first < d->scene->light_count; (*first)++) {
@@ -188,7 +188,7 @@ static void add_group(gni_draft *d, uint32_t *first, unsigned draws)
 
 static void add_light_passes(gni_draft *d)
 {
-    const unsigned last = d->plan->shade == GN_SHADE_ADDITIVE ? GNI_DRAWS_OTHERS : GNI_DRAWS_RECEIVERS;
+    const unsigned last = gni_is_additive(d) ? GNI_DRAWS_OTHERS : GNI_DRAWS_RECEIVERS;
 
     for (unsigned draws = GNI_DRAWS_RECEIVERS; draws <= last; draws <<= 1)
         for (uint32_t light = 0; light < d->scene->light_count;)
@@ -197,16 +197,16 @@ static void add_light_passes(gni_draft *d)
 
 void gni_add_own_passes(gni_draft *d, uint32_t light)
 {
-    const int is_once = d->scene->blend_once, is_alpha = d->plan->mask == GN_MASK_ALPHA;
+    const int is_once = d->scene->blend_once, is_alpha = GNI_HAS_FALLBACK && d->plan->mask == GN_MASK_ALPHA;
     gn_step *step;
 
     if (is_passed(d, light, GNI_DRAWS_RECEIVERS)) {
-        step = d->plan->shade == GN_SHADE_ADDITIVE ? gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIGHT, light, 1)
-                                                   : gni_add_step(d, GN_STEP_SHADE, GN_DRAW_NOTHING, light, 0);
+        step = gni_is_additive(d) ? gni_add_step(d, GN_STEP_DRAW, GN_DRAW_LIGHT, light, 1)
+                                  : gni_add_step(d, GN_STEP_SHADE, GN_DRAW_NOTHING, light, 0);
         step->lights[0] = light;
         step->light_count = 1;
     }
-    if (!(d->draws[light] & GNI_DRAWS_OTHERS) || d->plan->shade != GN_SHADE_ADDITIVE)
+    if (!(d->draws[light] & GNI_DRAWS_OTHERS) || !gni_is_additive(d))
         return;
     if (is_once && is_alpha)
         gni_add_step(d, GN_STEP_OPAQUE, GN_DRAW_NOTHING, light, 0);
@@ -219,14 +219,32 @@ void gni_add_own_passes(gni_draft *d, uint32_t light)
         gni_stain_stencil(d, light);
 }
 
+void gni_end_batch(gni_draft *d, int more_follows)
+{
+    gn_step *step;
+
+    if (d->plan->record_count == d->first_of_batch)
+        return; /* nothing since the last */
+    gni_add_step(d, GN_STEP_VOLUMES, GN_DRAW_NOTHING, d->light, 0);
+    step = &d->steps[d->plan->step_count - 1];
+    step->first_record = d->first_of_batch;
+    step->record_count = d->plan->record_count - d->first_of_batch;
+    d->first_of_batch = d->plan->record_count;
+    d->lights[d->light].batches++;
+    if (gni_is_colored(d))
+        gni_fold_color(d, more_follows);
+    else if (more_follows)
+        gni_add_step(d, GN_STEP_FOLD, GN_DRAW_NOTHING, d->light, 0);
+}
+
 /* All lights, and what is before, between and behind them. */
 static gn_result add_lights(gni_draft *d)
 {
-    const int are_textures = d->plan->mask == GN_MASK_TEXTURE && !d->reuses_masks;
+    const int are_textures = gni_reads_masks(d) && !d->reuses_masks;
     const uint32_t first_step = d->plan->step_count;
     gn_result result = GN_OK;
 
-    if (d->choice.is_refined) {
+    if (gni_is_refined(d)) {
         gni_start_refined(d);
     } else if (are_textures) {
         start_masks(d);
@@ -236,16 +254,16 @@ static gn_result add_lights(gni_draft *d)
     for (uint32_t light = 0; light < d->scene->light_count && result == GN_OK; light++) {
         d->draws[light] = 0;
         result = gni_add_light(d, light);
-        if (d->plan->mask != GN_MASK_TEXTURE && !d->choice.is_refined)
+        if (!gni_reads_masks(d) && !gni_is_refined(d))
             gni_add_own_passes(d, light);
     }
     if (result != GN_OK)
         return result;
-    if (d->choice.is_refined)
+    if (gni_is_refined(d))
         gni_refine(d, first_step);
     if (are_textures)
         end_masks(d, first_step);
-    if (d->plan->mask == GN_MASK_TEXTURE)
+    if (gni_reads_masks(d))
         add_light_passes(d);
     return GN_OK;
 }
@@ -254,9 +272,9 @@ gn_result gni_add_passes(gni_draft *d)
 {
     gn_result result;
 
-    d->reuses_masks = gni_may_reuse_masks(d);
+    d->reuses_masks = GNI_HAS_CACHE && gni_may_reuse_masks(d);
     result = add_lights(d);
-    if (result == GN_OK && d->must_remake) {
+    if (GNI_HAS_CACHE && result == GN_OK && d->must_remake) {
         memset(d->lights, 0, d->scene->light_count * sizeof *d->lights);
         d->plan->step_count = 0;
         d->reuses_masks = 0;
@@ -264,14 +282,14 @@ gn_result gni_add_passes(gni_draft *d)
     }
     if (result != GN_OK)
         return result;
-    if (d->reuses_masks)
+    if (GNI_HAS_CACHE && d->reuses_masks)
         gni_reuse_masks(d);
-    else
+    else if (GNI_HAS_CACHE)
         gni_note_masks(d);
     redraw_others(d);
     if (!d->scene->precedes)
         add_draw(d, GN_DRAW_FINAL);
-    if (d->plan->mask == GN_MASK_ALPHA)
+    if (GNI_HAS_FALLBACK && d->plan->mask == GN_MASK_ALPHA)
         add(d, GN_STEP_OPAQUE);
     if (d->scene->discards && !d->scene->precedes && gn_target_can(&d->scene->target, GN_CAN_DISCARD))
         add(d, GN_STEP_DISCARD);

@@ -16,7 +16,7 @@ static int is_end_crossed(const gni_draft *d, const gni_volume *v)
 
     if (v->far_end != GN_FAR_ENDED)
         return 0;
-    if (d->region || !d->receivers_are_known)
+    if (gni_has_region(d) || !d->receivers_are_known)
         return 1;
     if (v->extent->end_image[2] == 0 || v->extent->end_image[3] == 0)
         return 0;
@@ -37,16 +37,16 @@ unsigned gni_choose_parts(const gni_draft *d, const gni_volume *v, int *mcguire_
     gni_case c = *v->at_hand;
     unsigned parts = 0;
 
-    if (v->start_plane) {
+    if (GNI_HAS_CULLING && v->start_plane) {
         *mcguire_case = c.number;
         return GN_SIDES | GN_DARK_CAP;
     }
-    if (is_stencil && v->far_end == GN_FAR_CLAMPED && c.number == 1)
+    if (GNI_HAS_CULLING && is_stencil && v->far_end == GN_FAR_CLAMPED && c.number == 1)
         c.number = c.seen & GNI_SEES_CASTER ? 3 : 2; /* what lies before the near plane would be drawn, and counted */
     if (c.seen & GNI_SEES_VOLUME)
         parts |= GN_SIDES;
-    if (c.seen & (v->far_end == GN_FAR_ENDED && d->region ? GNI_SEES_VOLUME : GNI_SEES_FAR) &&
-        (c.number != 1 || is_end_crossed(d, v)))
+    if (c.seen & (v->far_end == GN_FAR_ENDED && gni_has_region(d) ? GNI_SEES_VOLUME : GNI_SEES_FAR) &&
+        (c.number != 1 || (GNI_HAS_CULLING && is_end_crossed(d, v))))
         parts |= GN_DARK_CAP;
     if (c.seen & GNI_SEES_CASTER && (c.number != 1 || !c.is_drawn))
         parts |= GN_LIGHT_CAP;
@@ -63,14 +63,14 @@ void gni_know_casting(gni_draft *d, uint32_t object)
 
 static void add_volumes(gni_draft *d, const gni_volume *v, uint32_t count, const gni_casting *casting)
 {
-    if (d->is_colored) {
+    if (gni_is_colored(d)) {
         if (casting == &d->casting)
             gni_know_casting(d, v->object);
         d->casting_count += casting->count;
         gni_add_colored(d, v, casting);
         return;
     }
-    if (d->slot && gni_add_kept_records(d, v, count)) {
+    if (gni_has_slot(d) && gni_add_kept_records(d, v, count)) {
         d->casting_count += d->slot->triangles;
         gni_note_layers(d, v->object, d->slot->triangles, d->slot->silhouette);
         return;
@@ -78,7 +78,7 @@ static void add_volumes(gni_draft *d, const gni_volume *v, uint32_t count, const
     if (casting == &d->casting)
         gni_know_casting(d, v->object);
     d->casting_count += casting->count;
-    if (d->is_batched)
+    if (gni_is_batched(d))
         gni_add_batched(d, v, casting);
     else
         gni_note_layers(d, v->object, casting->count, gni_add_records(d, v, count, casting));
@@ -180,7 +180,7 @@ static void add_intervals(gni_draft *d, uint32_t object, const gni_case *at_hand
 
     intervals[0] = *extent;
     if (d->receivers_are_known && info->solid_part_count == info->part_count && d->lights[d->light].stencil.wrap &&
-        !d->is_batched && !(d->scene->without & GN_MEASURE_INTERVALS))
+        !gni_is_batched(d) && !(d->scene->without & GN_MEASURE_INTERVALS))
         count = gni_cut_extent(intervals, extent, d, object);
     if (count > 0 && memcmp(intervals[0].end_plane, extent->end_plane, sizeof extent->end_plane) != 0)
         of_interval.seen |= GNI_SEES_FAR;
@@ -198,13 +198,13 @@ static void add_intervals(gni_draft *d, uint32_t object, const gni_case *at_hand
 
 gn_result gni_add_caster(gni_draft *d, uint32_t object, const gni_case *at_hand, const gni_extent *extent)
 {
-    int unpatched = d->uses_patches;
+    int unpatched = gni_uses_patches(d);
 
-    for (uint32_t p = 0; p < d->patch_count; p++)
+    for (uint32_t p = 0; GNI_HAS_CULLING && p < d->patch_count; p++)
         unpatched &= extent->on[p] != GNI_FILLS_PATCH;
-    if (d->region)
+    if (gni_has_region(d))
         return add_ended(d, object, at_hand, extent);
-    if (extent->is_ended)
+    if (GNI_HAS_CULLING && extent->is_ended)
         add_intervals(d, object, at_hand, extent, unpatched);
     else
         add_endless(d, object, at_hand, extent, GN_FAR_INFINITE, unpatched);

@@ -32,6 +32,12 @@ void gni_clean_stencil(gni_draft *d, uint32_t light)
     const gn_plan_light *about = &d->lights[light];
     uint32_t *dirty = d->stain.at, at[4];
 
+    if (!GNI_HAS_CULLING) { /* all lights are everywhere */
+        if (dirty[2])
+            gni_add_step(d, GN_STEP_ZERO, GN_DRAW_NOTHING, light, 0);
+        dirty[2] = 0;
+        return;
+    }
     corners_of(about->scissor, at);
     if (light == 0) /* the clear is to its reference */
         d->stain.reference = about->stencil.reference;
@@ -52,6 +58,10 @@ void gni_stain_stencil(gni_draft *d, uint32_t light)
 {
     uint32_t *dirty = d->stain.at, at[4];
 
+    if (!GNI_HAS_CULLING) {
+        dirty[2] = d->scene->target.width;
+        return;
+    }
     corners_of(d->lights[light].scissor, at);
     if (dirty[0] >= dirty[2]) {
         memcpy(dirty, at, sizeof at);

@@ -11,7 +11,7 @@ void gni_start_text(gni_text *t, char *text, size_t capacity)
         text[0] = '\0';
 }
 
-void gni_put(gni_text *t, const char *format, ...)
+void(gni_put)(gni_text *t, const char *format, ...)
 {
     const size_t room = t->length < t->capacity ? t->capacity - t->length : 0;
     va_list args;

@@ -61,8 +61,10 @@ gn_result gn_mesh_update(gn_mesh *mesh, const float *positions, size_t stride)
     gni_subtract_centre(mesh);
     gni_find_planes(mesh);
     gni_judge_parts(mesh);
-    gni_sum_groups(mesh);
-    gni_fill_clusters(mesh);
+    if (GNI_HAS_WELDING)
+        gni_sum_groups(mesh);
+    if (GNI_HAS_CLUSTERS)
+        gni_fill_clusters(mesh);
     mesh->info.shape++;
     return GN_OK;
 }

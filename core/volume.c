@@ -100,7 +100,7 @@ static uint32_t end_of(const gn_chunk *chunk)
 
 static int is_whole(const gni_casting *c, uint32_t cluster)
 {
-    return c->is_plain && c->bits[cluster] == ~(uint64_t)0;
+    return GNI_HAS_CLUSTERS && c->is_plain && c->bits[cluster] == ~(uint64_t)0;
 }
 
 /* Of a cluster that casts whole. */
@@ -194,7 +194,7 @@ uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk_index, const gni_
     const gn_chunk *chunk = &mesh->chunks[chunk_index];
     uint16_t *at = out;
 
-    if (c->is_plain && c->turn != turn)
+    if (GNI_HAS_CLUSTERS && c->is_plain && c->turn != turn)
         return 0;
     for (uint32_t cluster = chunk->first_triangle / GNI_CLUSTER; cluster < end_of(chunk); cluster++) {
         const uint32_t first = cluster * GNI_CLUSTER;
@@ -205,7 +205,8 @@ uint32_t gni_put_light_cap(const gn_mesh *mesh, uint32_t chunk_index, const gni_
             at += 3 * GNI_CLUSTER;
             continue;
         }
-        at = c->is_plain ? copy_corners(corners, c->bits[cluster], at) : copy_turned(corners, c, cluster, turn, at);
+        at = GNI_HAS_CLUSTERS && c->is_plain ? copy_corners(corners, c->bits[cluster], at)
+                                             : copy_turned(corners, c, cluster, turn, at);
     }
     return (uint32_t)(at - out);
 }

@@ -66,9 +66,9 @@ static const char *text_of(const gn_gl *gl, GLenum name)
     return text ? (const char *)text : "";
 }
 
-uint32_t gni_advertised(const gn_gles *g, const gn_target *t)
+/* By version and extensions. */
+static uint32_t offered(const gn_gl *gl)
 {
-    const gn_gl *gl = &g->gl;
     const char *const extensions = text_of(gl, GL_EXTENSIONS);
     const int version = version_of(text_of(gl, GL_VERSION));
     GLint range[2] = {0, 0}, precision = 0;
@@ -81,6 +81,17 @@ uint32_t gni_advertised(const gn_gles *g, const gn_target *t)
             is_there |= has_word(extensions, rows[i].extensions[e]);
         set |= (uint32_t)is_there << rows[i].capability;
     }
+    gl->glGetShaderPrecisionFormat(GL_FRAGMENT_SHADER, GL_HIGH_FLOAT, range, &precision);
+    if (precision >= 16)
+        set |= 1u << GN_CAN_FRAGMENT_HIGHP;
+    return set;
+}
+
+uint32_t gni_advertised(const gn_gles *g, const gn_target *t)
+{
+    /* without culling no plan asks for an extension */
+    uint32_t set = GNI_HAS_CULLING ? offered(&g->gl) : 1u << GN_CAN_W0 | 1u << GN_CAN_FRONT_FACING;
+
     if (t->stencil_bits >= 8)
         set |= 1u << GN_CAN_STENCIL | 1u << GN_CAN_STENCIL_WRAP | 1u << GN_CAN_TWO_SIDED_STENCIL;
     if (t->depth_bits > 0)
@@ -89,9 +100,6 @@ uint32_t gni_advertised(const gn_gles *g, const gn_target *t)
         set |= 1u << GN_CAN_ALPHA;
     if (t->samples > 0) /* a mask has one sample a pixel, and shares no depth with many */
         set &= ~(1u << GN_CAN_SHARED_DEPTH);
-    gl->glGetShaderPrecisionFormat(GL_FRAGMENT_SHADER, GL_HIGH_FLOAT, range, &precision);
-    if (precision >= 16)
-        set |= 1u << GN_CAN_FRAGMENT_HIGHP;
     return set;
 }
 

@@ -50,15 +50,19 @@ gn_result gn_gles_describe_target(gn_gles *g, uint32_t width, uint32_t height, c
     t.depth_bits = bits(gl, GL_DEPTH_BITS);
     t.stencil_bits = bits(gl, GL_STENCIL_BITS);
     t.samples = bits(gl, GL_SAMPLES);
-    t.image_depth_bits = gni_image_depth(g);
+    t.image_depth_bits = GNI_HAS_FALLBACK ? gni_image_depth(g) : 0;
     t.framebuffer = (uint32_t)bits(gl, GL_FRAMEBUFFER_BINDING);
-    t.shared_depth = t.samples ? 0 : find_depth_to_share(gl, t.framebuffer);
+    t.shared_depth = !GNI_HAS_FALLBACK || t.samples ? 0 : find_depth_to_share(gl, t.framebuffer);
     t.hidden = g->hidden;
     t.advertised = gni_advertised(g, &t);
     if (gl->glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_describe_target: the bound framebuffer is not complete");
     memset(g->symptoms, 0, sizeof g->symptoms);
     if (!gni_read_saved(g, saved, &t)) {
+        if (!GNI_HAS_PROOFS)
+            return gn_fail(g->context, GN_E_DEVICE,
+                           "gn_gles_describe_target: this build proves nothing: the text that is given must have been "
+                           "saved of this driver and target");
         gni_keep_host(g, &host);
         gni_prove(g, &t);
         gni_put_host_back(g, &host);

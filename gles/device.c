@@ -24,10 +24,27 @@ static gn_result hide(gn_context *context, const char *from, const char *names, 
 
 gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles **out)
 {
-    static const float corners[18][4] = {
-        {-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1}, {-1, -1, 0, 1}, {1, 1, 0, 1}, {-1, 1, 0, 1}, /* GNI_QUAD */
-        {-1, -1, 1, 0}, {1, -1, 1, 0}, {1, 1, 1, 0}, {-1, -1, 1, 0}, {1, 1, 1, 0}, {-1, 1, 1, 0}, /* GNI_FAR_QUAD */
-        {-1, -1, 1, 1}, {1, -1, 1, 1}, {1, 1, 1, 0}, {-1, -1, 1, 1}, {1, 1, 1, 0}, {-1, 1, 1, 0}  /* GNI_WALL */
+    static const float corners[][4] = {
+        {-1, -1, 0, 1},
+        {1, -1, 0, 1},
+        {1, 1, 0, 1},
+        {-1, -1, 0, 1},
+        {1, 1, 0, 1},
+        {-1, 1, 0, 1}, /* GNI_QUAD */
+#if GNI_HAS_PROOFS
+        {-1, -1, 1, 0},
+        {1, -1, 1, 0},
+        {1, 1, 1, 0},
+        {-1, -1, 1, 0},
+        {1, 1, 1, 0},
+        {-1, 1, 1, 0}, /* GNI_FAR_QUAD */
+        {-1, -1, 1, 1},
+        {1, -1, 1, 1},
+        {1, 1, 1, 0},
+        {-1, -1, 1, 1},
+        {1, 1, 1, 0},
+        {-1, 1, 1, 0} /* GNI_WALL */
+#endif
     };
     const gn_port *port = gn_context_port(context);
     const char *missing;
@@ -40,11 +57,15 @@ gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles 
         *out = NULL;
     if (!context || !desc || !desc->get_proc || !out)
         return gn_fail(context, GN_E_ARG, "gn_gles_create: NULL argument");
-    result = hide(context, "gn_gles_desc.hide", desc->hide, &hidden);
-    if (result == GN_OK && port->setting)
-        result = hide(context, "GNOMON_HIDE", port->setting(port->user, "GNOMON_HIDE"), &hidden);
-    if (result != GN_OK)
-        return result;
+    if (GNI_HAS_PROOFS) {
+        result = hide(context, "gn_gles_desc.hide", desc->hide, &hidden);
+        if (result == GN_OK && port->setting)
+            result = hide(context, "GNOMON_HIDE", port->setting(port->user, "GNOMON_HIDE"), &hidden);
+        if (result != GN_OK)
+            return result;
+    } else if (desc->hide) {
+        return gn_fail(context, GN_E_ARG, "gn_gles_desc.hide: this build lacks the feature proofs (%s)", desc->hide);
+    }
     g = port->resize(port->user, NULL, 0, sizeof *g);
     if (!g)
         return gn_fail(context, GN_E_MEMORY, "gn_gles_create: no memory");
@@ -60,8 +81,8 @@ gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles 
     }
     g->gl.glGetIntegerv(GL_MAX_VERTEX_ATTRIBS, &arrays);
     g->attribute_arrays = arrays > 0 ? (GLuint)arrays : 8; /* 8 is the least that OpenGL ES 2.0 allows */
-    if (!gni_make_flat_program(g, &g->colored, "volume", "") ||
-        !gni_make_flat_program(g, &g->counted, "counted volume", "#define COUNTED\n"))
+    if (((GNI_HAS_FALLBACK || GNI_HAS_PROOFS) && !gni_make_flat_program(g, &g->colored, "volume", "")) ||
+        !gni_make_flat_program(g, &g->counted, "counted volume", NULL))
         return refuse(g, "the GL refuses the volume shaders: see the log");
     g->gl.glGenBuffers(1, &g->quad);
     g->gl.glGenBuffers(1, &g->indices);
@@ -81,6 +102,20 @@ void gn_gles_forget(gn_gles *g)
         g->forgotten = 1;
 }
 
+static void delete_fallback(gn_gles *g)
+{
+    /* 0 is none */
+    g->gl.glDeleteProgram(g->sided.name);
+    g->gl.glDeleteProgram(g->sided_color.name);
+    g->gl.glDeleteProgram(g->faced.name);
+    g->gl.glDeleteProgram(g->resolve.name);
+    g->gl.glDeleteProgram(g->shade.name);
+    g->gl.glDeleteProgram(g->carry.name);
+    g->gl.glDeleteProgram(g->edges.name);
+    g->gl.glDeleteProgram(g->agree.name);
+    gni_delete_images(g);
+}
+
 void gn_gles_destroy(gn_gles *g)
 {
     if (!g)
@@ -91,19 +126,13 @@ void gn_gles_destroy(gn_gles *g)
         g->gl.glDeleteBuffers(1, &g->quad);
         g->gl.glDeleteBuffers(1, &g->indices);
         g->gl.glDeleteBuffers(1, &g->cached);
-        g->gl.glDeleteProgram(g->colored.name); /* 0 is none */
         g->gl.glDeleteProgram(g->counted.name);
-        g->gl.glDeleteProgram(g->sided.name);
-        g->gl.glDeleteProgram(g->sided_color.name);
-        g->gl.glDeleteProgram(g->faced.name);
-        g->gl.glDeleteProgram(g->resolve.name);
-        g->gl.glDeleteProgram(g->shade.name);
-        g->gl.glDeleteProgram(g->carry.name);
-        g->gl.glDeleteProgram(g->edges.name);
-        g->gl.glDeleteProgram(g->agree.name);
-        gni_delete_images(g);
+        if (GNI_HAS_FALLBACK || GNI_HAS_PROOFS)
+            g->gl.glDeleteProgram(g->colored.name);
+        if (GNI_HAS_FALLBACK)
+            delete_fallback(g);
     }
-    if (g->images.masks)
+    if (GNI_HAS_FALLBACK && g->images.masks)
         g->port.resize(g->port.user, g->images.masks, g->images.mask_capacity * sizeof *g->images.masks, 0);
     if (g->uploads)
         g->port.resize(g->port.user, g->uploads, g->upload_capacity * sizeof *g->uploads, 0);

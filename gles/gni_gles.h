@@ -1,6 +1,7 @@
 /* gni_gles.h - what the files of gles/ share with each other and with nobody else. */
 #ifndef GNI_GLES_H
 #define GNI_GLES_H
+#include "gni_features.h"
 #include "gnomon_gles.h"
 
 /* The GL state of a pass, as data (state.c sends the difference). */
@@ -118,6 +119,8 @@ struct gn_gles {
 #define GNI_SWITCH_CLAMP  (1u << 7)
 #define GNI_SWITCH_DITHER (1u << 8)
 
+/* All is written, and nothing tested. */
+extern const gni_state gni_unmasked;
 /* Sends what differs from what was last sent since gni_reset_state(). */
 void gni_set_state(gn_gles *g, const gni_state *wanted);
 /* Sends the state that is the same in all passes, and forgets the rest: the host may have changed anything. */
@@ -131,7 +134,7 @@ GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const
 /* quad.vert over another. 0 on failure. */
 int gni_make_reader(gn_gles *g, gni_reader *out, const char *name, const char *defines, const char *fragment);
 
-/* Of flat.frag's ways, by its defines. 0 on failure. */
+/* Of flat.frag's ways, by its defines; NULL: over counted.frag. 0 on failure. */
 int gni_make_flat_program(gn_gles *g, gni_program *out, const char *name, const char *defines);
 
 /* buffers.c */
@@ -172,6 +175,9 @@ GLint gni_patch_name(const gn_stencil_layout *layout, uint32_t patch);
 int gni_backs_rise(const gn_record *r, int turned);
 int gni_shows_backs(const gn_record *r, int turned, gni_half half);
 
+/* walk.c */
+void gni_set_viewport(gn_gles *g); /* of what is bound */
+
 /* fallback/color.c: the same in colour. */
 int gni_make_color_programs(gn_gles *g, const gn_plan *plan); /* those that it needs; 0 on failure */
 void gni_color_step(gn_gles *g, const gn_step *step);
@@ -184,7 +190,6 @@ gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan);
 void gni_delete_images(gn_gles *g);
 /* Binds what the step draws into. */
 void gni_bind_for(gn_gles *g, const gn_step *step);
-void gni_set_viewport(gn_gles *g); /* of what is bound */
 
 /* host_state.c: keeps what proofs disturb, and puts it back. */
 typedef struct gni_host_state {

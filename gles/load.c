@@ -2,7 +2,6 @@
  * have in the family of the context: many a look-up finds something under any name. */
 #include "gn_gl.h"
 
-#include <stddef.h>
 #include <string.h>
 
 static int is_desktop(const gn_gl *gl)
@@ -12,21 +11,34 @@ static int is_desktop(const gn_gl *gl)
     return version && strncmp((const char *)version, "OpenGL ES", 9) != 0;
 }
 
-const char *gn_gl_load(gn_gl *gl, gn_get_proc get_proc, void *user)
-{
-#define GN_GL_PROC(name, parameters, arguments)                                                                        \
-    gl->name = (void(GL_APIENTRY *) parameters)get_proc(user, #name);                                                  \
-    if (!gl->name)                                                                                                     \
-        return #name;
-#define GN_GL_FUNC(type, name, parameters, arguments)                                                                  \
-    gl->name = (type(GL_APIENTRY *) parameters)get_proc(user, #name);                                                  \
-    if (!gl->name)                                                                                                     \
-        return #name;
-#define GN_GL_OPTIONAL(name, other, parameters, arguments)                                                             \
-    gl->name = (void(GL_APIENTRY *) parameters)get_proc(user, is_desktop(gl) ? #other : #name);
+/* Names in the order of the table; of an extension's function "?" and both. */
+static const char names[] =
+#define GN_GL_PROC(name, parameters, arguments)            #name "\0"
+#define GN_GL_FUNC(type, name, parameters, arguments)      #name "\0"
+#define GN_GL_OPTIONAL(name, other, parameters, arguments) "?" #name "\0" #other "\0"
 #include "gl_funcs.h"
 #undef GN_GL_PROC
 #undef GN_GL_FUNC
 #undef GN_GL_OPTIONAL
+    ;
+
+const char *gn_gl_load(gn_gl *gl, gn_get_proc get_proc, void *user)
+{
+    unsigned char *to = (unsigned char *)gl; /* pointers to functions, and nothing else */
+    int desktop = -1;
+
+    for (const char *name = names; *name; name += strlen(name) + 1, to += sizeof(gn_proc)) {
+        gn_proc found;
+
+        if (*name == '?') {
+            if (desktop < 0)
+                desktop = is_desktop(gl);
+            found = get_proc(user, desktop ? name + strlen(name) + 1 : name + 1);
+            name += strlen(name) + 1;
+        } else if (!(found = get_proc(user, name))) {
+            return name;
+        }
+        memcpy(to, &found, sizeof found);
+    }
     return NULL;
 }

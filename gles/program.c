@@ -1,18 +1,22 @@
 /* program.c - compiles and links; what the driver says of a failure goes to the port's log with the shader's name. */
 #include "gni_gles.h"
 
+#include "shaders/counted.frag.h"
 #include "shaders/flat.frag.h"
 #include "shaders/quad.vert.h"
 #include "shaders/volume.vert.h"
 
 #include <stdio.h>
 
-static void complain(const gn_gles *g, const char *name, const char *log)
+/* get_log: of a shader, or of a program. */
+static void complain(const gn_gles *g, const char *name,
+                     void(GL_APIENTRY *get_log)(GLuint, GLsizei, GLsizei *, GLchar *), GLuint of)
 {
-    char line[640];
+    char log[512] = "", line[640];
 
     if (!g->port.log)
         return;
+    get_log(of, sizeof log, NULL, log);
     snprintf(line, sizeof line, "%s: %s", name, log[0] ? log : "refused without a word");
     g->port.log(g->port.user, GN_LOG_ERROR, line);
 }
@@ -32,10 +36,8 @@ static GLuint compile(gn_gles *g, GLenum type, const char *name, const char *def
     gl->glCompileShader(shader);
     gl->glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
     if (!ok) {
-        char log[512] = "";
-
-        gl->glGetShaderInfoLog(shader, sizeof log, NULL, log);
-        complain(g, name, log);
+        if (GNI_HAS_MESSAGES)
+            complain(g, name, gl->glGetShaderInfoLog, shader);
         gl->glDeleteShader(shader);
         return 0;
     }
@@ -57,10 +59,8 @@ GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const
         gl->glLinkProgram(program);
         gl->glGetProgramiv(program, GL_LINK_STATUS, &ok);
         if (!ok) {
-            char log[512] = "";
-
-            gl->glGetProgramInfoLog(program, sizeof log, NULL, log);
-            complain(g, name, log);
+            if (GNI_HAS_MESSAGES)
+                complain(g, name, gl->glGetProgramInfoLog, program);
             gl->glDeleteProgram(program);
             program = 0;
         }
@@ -75,12 +75,16 @@ GLuint gni_make_program(gn_gles *g, const char *name, const char *defines, const
 int gni_make_flat_program(gn_gles *g, gni_program *out, const char *name, const char *defines)
 {
     const gn_gl *gl = &g->gl;
+    const int is_flat = (GNI_HAS_FALLBACK || GNI_HAS_PROOFS) && defines;
 
-    out->name = gni_make_program(g, name, defines, gni_shader_volume_vert, gni_shader_flat_frag);
+    out->name = gni_make_program(g, name, is_flat ? defines : "", gni_shader_volume_vert,
+                                 is_flat ? gni_shader_flat_frag : gni_shader_counted_frag);
     if (!out->name)
         return 0;
     out->near_matrix = gl->glGetUniformLocation(out->name, "u_near");
     out->far_matrix = gl->glGetUniformLocation(out->name, "u_far");
+    if (!is_flat)
+        return 1;
     out->color = gl->glGetUniformLocation(out->name, "u_color");
     out->side = gl->glGetUniformLocation(out->name, "u_side");
     out->back = gl->glGetUniformLocation(out->name, "u_back");

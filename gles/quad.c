@@ -11,7 +11,7 @@ void gni_bound(gni_state *s, const gn_plan *plan, const gn_plan_light *l, const 
 
 static void set_quad_state(gn_gles *g, const gn_step *step, gni_state *state)
 {
-    if (step->light != GN_NO_LIGHT)
+    if (GNI_HAS_CULLING && step->light != GN_NO_LIGHT)
         gni_bound(state, g->plan, &g->plan->lights[step->light], g->plan->lights[step->light].scissor);
     state->bounds = NULL; /* what depth the pixels have does not matter */
     gni_set_state(g, state);
@@ -29,12 +29,12 @@ static void draw(gn_gles *g)
 void gni_fill_quad(gn_gles *g, const gn_step *step, gni_state state, const float color[4])
 {
     static const float identity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    const gni_program *const program = color ? &g->colored : &g->counted;
+    const gni_program *const program = GNI_HAS_FALLBACK && color ? &g->colored : &g->counted;
 
     set_quad_state(g, step, &state);
     gni_begin_volumes(g, program);
     g->gl.glUniformMatrix4fv(program->near_matrix, 1, GL_FALSE, identity);
-    if (color)
+    if (GNI_HAS_FALLBACK && color)
         g->gl.glUniform4fv(program->color, 1, color);
     draw(g);
     gni_end_volumes(g);

@@ -106,7 +106,7 @@ int gni_read_saved(gn_gles *g, const char *saved, gn_target *t)
                 found |= 1u << c;
             else if (!line || strncmp(line, failing, sizeof failing - 1) != 0 || !strchr(line, '\n'))
                 return 0;
-            else if (pass == 1)
+            else if (GNI_HAS_MESSAGES && pass == 1)
                 snprintf(g->symptoms[c], GNI_SYMPTOM, "%.*s", (int)strcspn(line + sizeof failing - 1, "\n"),
                          line + sizeof failing - 1);
         }

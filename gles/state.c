@@ -12,13 +12,17 @@ static const GLenum switches[] = {GL_DEPTH_TEST,          GL_STENCIL_TEST, GL_BL
                                   GNI_DEPTH_BOUNDS,       GNI_DEPTH_CLAMP, GL_DITHER};
 enum { SWITCHES = sizeof switches / sizeof switches[0] };
 
+const gni_state gni_unmasked = {.color_mask = 15, .depth_write = GL_TRUE, .stencil_write = ~0u};
+
 static void send_switches(gn_gles *g, const gni_state *wanted)
 {
     const unsigned on = (wanted->depth_func ? 1u : 0u) | (wanted->stencil_func ? 2u : 0u) |
                         (wanted->blend_source || wanted->blend_destination ? 4u : 0u) | (wanted->offset ? 8u : 0u) |
-                        (wanted->cull ? 16u : 0u) | (wanted->scissor ? 32u : 0u) |
-                        (wanted->bounds ? GNI_SWITCH_BOUNDS : 0u) | (wanted->clamp ? GNI_SWITCH_CLAMP : 0u) |
-                        (wanted->undithered ? 0u : g->may_switch & GNI_SWITCH_DITHER);
+                        (GNI_HAS_FALLBACK && wanted->cull ? 16u : 0u) |
+                        (GNI_HAS_CULLING && wanted->scissor ? 32u : 0u) |
+                        (GNI_HAS_CULLING && wanted->bounds ? GNI_SWITCH_BOUNDS : 0u) |
+                        (GNI_HAS_CULLING && wanted->clamp ? GNI_SWITCH_CLAMP : 0u) |
+                        (!GNI_HAS_FALLBACK || wanted->undithered ? 0u : g->may_switch & GNI_SWITCH_DITHER);
     const unsigned changed = g->state_is_known ? on ^ g->tests_on : on | g->may_switch | (GNI_SWITCH_BOUNDS - 1u);
 
     for (int i = 0; i < SWITCHES; i++) {
@@ -81,7 +85,7 @@ static void send_blending(gn_gles *g, const gni_state *wanted)
 
     if (wanted->blend_source != last->blend_source || wanted->blend_destination != last->blend_destination ||
         wanted->alpha_source != last->alpha_source || wanted->alpha_destination != last->alpha_destination) {
-        if (wanted->alpha_source)
+        if (GNI_HAS_FALLBACK && wanted->alpha_source)
             gl->glBlendFuncSeparate(wanted->blend_source, wanted->blend_destination, factor(wanted->alpha_source),
                                     factor(wanted->alpha_destination));
         else
@@ -96,7 +100,7 @@ static void send_blending(gn_gles *g, const gni_state *wanted)
 /* Of the frame's pixels; where masks are smaller, all of theirs that have one of these, or a neighbour that does. */
 static void send_scissor(gn_gles *g, const uint32_t scissor[4])
 {
-    uint32_t at[4], scale = g->plan && g->into != GN_INTO_TARGET ? g->plan->scale : 1;
+    uint32_t at[4], scale = GNI_HAS_FALLBACK && g->plan && g->into != GN_INTO_TARGET ? g->plan->scale : 1;
 
     memcpy(at, scissor, sizeof at);
     for (int i = 0; i < 2 && scale > 1; i++) {
@@ -134,20 +138,20 @@ void gni_set_state(gn_gles *g, const gni_state *wanted)
         send_stencil(g, wanted);
     if (wanted->blend_source || wanted->blend_destination)
         send_blending(g, wanted);
-    if (wanted->blend_equation != last->blend_equation)
+    if (GNI_HAS_FALLBACK && wanted->blend_equation != last->blend_equation)
         gl->glBlendEquation(wanted->blend_equation ? wanted->blend_equation : GL_FUNC_ADD);
     last->blend_equation = wanted->blend_equation;
     if (wanted->offset && wanted->offset != last->offset) {
         gl->glPolygonOffset(0.0f, (GLfloat)wanted->offset);
         last->offset = wanted->offset;
     }
-    if (wanted->scissor)
+    if (GNI_HAS_CULLING && wanted->scissor)
         send_scissor(g, wanted->scissor);
-    if (wanted->bounds && wanted->bounds != last->bounds) {
+    if (GNI_HAS_CULLING && wanted->bounds && wanted->bounds != last->bounds) {
         gl->glDepthBoundsEXT(wanted->bounds[0], wanted->bounds[1]);
         last->bounds = wanted->bounds;
     }
-    if (wanted->cull && wanted->cull != last->cull) {
+    if (GNI_HAS_FALLBACK && wanted->cull && wanted->cull != last->cull) {
         gl->glCullFace(wanted->cull);
         last->cull = wanted->cull;
     }
@@ -171,11 +175,10 @@ void gni_reset_state(gn_gles *g)
 
 void gni_leave_state(gn_gles *g)
 {
-    static const gni_state off = {.color_mask = 15, .depth_write = GL_TRUE, .stencil_write = ~0u};
     const gn_gl *gl = &g->gl;
 
     gni_reset_state(g);
-    gni_set_state(g, &off);
+    gni_set_state(g, &gni_unmasked);
     gl->glDepthFunc(GL_LESS);
     gl->glStencilFunc(GL_ALWAYS, 0, ~0u);
     gl->glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);

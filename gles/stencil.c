@@ -125,7 +125,8 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, g
 {
     const gn_stencil_layout *layout = &plan->lights[r->light].stencil;
     const int zfail = is_zfail(r);
-    const GLenum up = layout->wrap ? GL_INCR_WRAP : GL_INCR, down = layout->wrap ? GL_DECR_WRAP : GL_DECR;
+    const GLenum up = !GNI_HAS_FALLBACK || layout->wrap ? GL_INCR_WRAP : GL_INCR,
+                 down = !GNI_HAS_FALLBACK || layout->wrap ? GL_DECR_WRAP : GL_DECR;
     const gni_face rise = {zfail ? up : 0, zfail ? 0 : up}, fall = {zfail ? down : 0, zfail ? 0 : down};
     gni_state s = {.stencil_write = layout->patch_bits ? (GLuint)layout->mask : ~0u,
                    .depth_func = GL_LESS,
@@ -135,19 +136,19 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, g
                    .offset = 1,
                    .clamp = r->far_end == GN_FAR_CLAMPED};
 
-    if (r->patch) {
+    if (GNI_HAS_CULLING && r->patch) {
         s.depth_func = 0;
         s.offset = 0;
         s.stencil_func = GL_EQUAL;
         s.stencil_reference = gni_patch_name(layout, r->patch);
         s.stencil_mask = name_mask(layout);
     }
-    if (r->unpatched) {
+    if (GNI_HAS_CULLING && r->unpatched) {
         s.stencil_func = GL_EQUAL;
         s.stencil_reference = 0;
         s.stencil_mask = name_mask(layout);
     }
-    if (h == GNI_BOTH) {
+    if (!GNI_HAS_FALLBACK || h == GNI_BOTH) {
         s.front = gni_backs_rise(r, turned) ? fall : rise;
         s.back = gni_backs_rise(r, turned) ? rise : fall;
     } else {
@@ -155,6 +156,8 @@ static gni_state counting(const gn_plan *plan, const gn_record *r, int turned, g
         if (!layout->discard)
             s.cull = gni_shows_backs(r, turned, h) ? GL_FRONT : GL_BACK;
     }
+    if (!GNI_HAS_CULLING)
+        return s;
     gni_bound(&s, plan, &plan->lights[r->light], r->scissor);
     if (r->patch)
         s.bounds = NULL; /* of depths that are not tested */
@@ -188,7 +191,7 @@ static void count_records(gn_gles *g, uint32_t first, uint32_t end, gni_half h)
                 continue;
             state = counting(g->plan, r, turned, h);
             gni_set_state(g, &state);
-            if (g->plan->lights[r->light].stencil.discard)
+            if (GNI_HAS_FALLBACK && g->plan->lights[r->light].stencil.discard)
                 g->gl.glUniform1f(g->sided.side, gni_shows_backs(r, turned, h) ? -1.0f : 1.0f);
             gni_draw_record(g, g->plan, r, turned);
         }
@@ -198,8 +201,11 @@ static void count_volumes(gn_gles *g, const gn_step *step)
 {
     const gn_stencil_layout *layout = &g->plan->lights[step->light].stencil;
 
-    gni_begin_volumes(g, layout->discard ? &g->sided : &g->counted);
-    gni_count_casters(g, step, layout->two_sided, count_records);
+    gni_begin_volumes(g, GNI_HAS_FALLBACK && layout->discard ? &g->sided : &g->counted);
+    if (GNI_HAS_FALLBACK)
+        gni_count_casters(g, step, layout->two_sided, count_records);
+    else
+        count_records(g, step->first_record, step->first_record + step->record_count, GNI_BOTH);
     gni_end_volumes(g);
 }
 
@@ -212,13 +218,16 @@ void gni_stencil_step(gn_gles *g, const gn_step *step)
         gni_fill_quad(g, step, reset(layout), NULL);
         break;
     case GN_STEP_FOLD:
-        gni_fill_quad(g, step, fold(layout), NULL);
+        if (GNI_HAS_BATCHES)
+            gni_fill_quad(g, step, fold(layout), NULL);
         break;
     case GN_STEP_MARK:
-        mark_patches(g, step);
+        if (GNI_HAS_CULLING)
+            mark_patches(g, step);
         break;
     case GN_STEP_DARKEN:
-        gni_fill_quad(g, step, darken(layout, step->patch), NULL);
+        if (GNI_HAS_CULLING)
+            gni_fill_quad(g, step, darken(layout, step->patch), NULL);
         break;
     default:
         count_volumes(g, step);

@@ -7,13 +7,12 @@ static const gni_state light = {
     .color_mask = 15, .depth_func = GL_EQUAL, .blend_source = GL_ONE, .blend_destination = GL_ONE};
 static const gni_state final = {
     .color_mask = 15, .depth_func = GL_LESS, .blend_source = GL_SRC_ALPHA, .blend_destination = GL_ONE_MINUS_SRC_ALPHA};
-static const gni_state unmasked = {.color_mask = 15, .depth_write = GL_TRUE, .stencil_write = ~0u};
 
 /* Depth that is there already is not drawn again: the ambient pass then meets it. */
 static int has_depth(const gn_plan *plan)
 {
-    return plan->mask == GN_MASK_TEXTURE && plan->image.format == GN_FORMAT_NONE && plan->mask_count > 0 &&
-           plan->scale == 1 && plan->mask_age == 0;
+    return GNI_HAS_FALLBACK && plan->mask == GN_MASK_TEXTURE && plan->image.format == GN_FORMAT_NONE &&
+           plan->mask_count > 0 && plan->scale == 1 && plan->mask_age == 0;
 }
 
 /* By the target's alpha, which stays; or becomes 0 where something is lit, so that nothing else is. */
@@ -36,11 +35,18 @@ static int is_uploaded(gn_gles *g, const gn_plan *plan, uint32_t object)
 
     if (upload && upload->shape == gn_mesh_get_info(mesh)->shape)
         return 1;
-    gn_fail(g->context, GN_E_ARG,
-            upload ? "gn_gles_begin: the mesh of object %lu was not uploaded since its update"
-                   : "gn_gles_begin: the mesh of object %lu was not uploaded",
-            (unsigned long)object);
+    (void)gn_fail(g->context, GN_E_ARG,
+                  upload ? "gn_gles_begin: the mesh of object %lu was not uploaded since its update"
+                         : "gn_gles_begin: the mesh of object %lu was not uploaded",
+                  (unsigned long)object);
     return 0;
+}
+
+void gni_set_viewport(gn_gles *g)
+{
+    const uint32_t *size = g->into == GN_INTO_TARGET ? g->plan->viewport : g->plan->mask_size;
+
+    g->gl.glViewport(0, 0, (GLsizei)size[0], (GLsizei)size[1]);
 }
 
 /* What has changed in the plan's cache since it was sent last: mostly nothing. */
@@ -82,30 +88,31 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
     for (uint32_t i = 0; i < plan->record_count; i++) {
         if (!is_uploaded(g, plan, plan->records[i].object))
             return GN_E_ARG;
-        may_switch |= plan->records[i].far_end == GN_FAR_CLAMPED ? GNI_SWITCH_CLAMP : 0u;
+        if (GNI_HAS_CULLING)
+            may_switch |= plan->records[i].far_end == GN_FAR_CLAMPED ? GNI_SWITCH_CLAMP : 0u;
     }
-    for (uint32_t i = 0; i < plan->object_count; i++)
+    for (uint32_t i = 0; GNI_HAS_CULLING && i < plan->object_count; i++)
         if ((plan->objects[i].patch || plan->objects[i].thin) && !is_uploaded(g, plan, i))
             return GN_E_ARG;
     for (uint32_t i = 0; i < plan->light_count; i++) {
         const gn_plan_light *l = &plan->lights[i];
 
-        if (l->skip == GN_SKIP_NOT && (l->depth_bounds[0] > 0.0 || l->depth_bounds[1] < 1.0))
+        if (GNI_HAS_CULLING && l->skip == GN_SKIP_NOT && (l->depth_bounds[0] > 0.0 || l->depth_bounds[1] < 1.0))
             may_switch |= GNI_SWITCH_BOUNDS;
         discards |= l->stencil.discard;
     }
-    if (plan->mask != GN_MASK_STENCIL || plan->carries_depth)
+    if (GNI_HAS_FALLBACK && (plan->mask != GN_MASK_STENCIL || plan->carries_depth))
         may_switch |= GNI_SWITCH_DITHER;
-    if (discards && !g->sided.name &&
+    if (GNI_HAS_FALLBACK && discards && !g->sided.name &&
         !gni_make_flat_program(g, &g->sided, "one side of volumes", "#define COUNTED\n#define SIDED\n"))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses the shader that discards: see the log");
-    if (!gni_make_color_programs(g, plan))
+    if (GNI_HAS_FALLBACK && !gni_make_color_programs(g, plan))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses a shader of %s: see the log",
                        gn_plan_method_name(plan, 0));
-    result = gni_prepare_images(g, plan);
+    result = GNI_HAS_FALLBACK ? gni_prepare_images(g, plan) : GN_OK;
     if (result != GN_OK)
         return result;
-    if (plan->mask_count > 0 && plan->mask_age == 0)
+    if (GNI_HAS_CACHE && plan->mask_count > 0 && plan->mask_age == 0)
         g->kept_masks[1] = 0; /* until they are made */
     g->plan = plan;
     g->into = GN_INTO_TARGET;
@@ -117,7 +124,7 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
                            GL_STREAM_DRAW);
         g->gl.glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, 0);
     }
-    if (plan->cache_id)
+    if (GNI_HAS_CACHE && plan->cache_id)
         send_cached(g, plan);
     return GN_OK;
 }
@@ -125,9 +132,9 @@ gn_result gn_gles_begin(gn_gles *g, const gn_plan *plan)
 /* The stencil too where counts are made in it: elsewhere it is somebody else's, or none. */
 static void clear(gn_gles *g)
 {
-    const int counts_here = g->plan->mask == GN_MASK_STENCIL;
+    const int counts_here = !GNI_HAS_FALLBACK || g->plan->mask == GN_MASK_STENCIL;
 
-    gni_set_state(g, &unmasked);
+    gni_set_state(g, &gni_unmasked);
     g->gl.glClearDepthf((GLfloat)g->plan->clear_depth);
     if (counts_here)
         g->gl.glClearStencil(g->plan->light_count ? g->plan->lights[0].stencil.reference : 0);
@@ -164,6 +171,8 @@ static gni_state state_for(gn_gles *g, const gn_step *step)
 
     switch (step->draw) {
     case GN_DRAW_DEPTH:
+        if (!GNI_HAS_FALLBACK)
+            return s;
         s = ambient;
         if (!plan->carries_depth)
             s.color_mask = 0;
@@ -179,13 +188,14 @@ static gni_state state_for(gn_gles *g, const gn_step *step)
         }
         return s;
     case GN_DRAW_LIGHT:
-        if (plan->mask == GN_MASK_STENCIL && (step->receivers || plan->blend_once))
+        if ((!GNI_HAS_FALLBACK || plan->mask == GN_MASK_STENCIL) && (step->receivers || plan->blend_once))
             s = gni_stencil_light(plan, &plan->lights[step->light], light);
-        if (plan->mask == GN_MASK_ALPHA && (step->receivers || plan->blend_once))
+        if (GNI_HAS_FALLBACK && plan->mask == GN_MASK_ALPHA && (step->receivers || plan->blend_once))
             s = light_under_alpha(plan);
-        else if (plan->mask == GN_MASK_ALPHA)
+        else if (GNI_HAS_FALLBACK && plan->mask == GN_MASK_ALPHA)
             s.color_mask = 7;
-        bound_lights(g, &s, step);
+        if (GNI_HAS_CULLING)
+            bound_lights(g, &s, step);
         return s;
     default:
         return final;
@@ -199,7 +209,9 @@ static void take_step(gn_gles *g, const gn_step *step)
         clear(g);
         break;
     case GN_STEP_CLEAR_COLOR:
-        gni_set_state(g, &unmasked);
+        if (!GNI_HAS_FALLBACK)
+            break;
+        gni_set_state(g, &gni_unmasked);
         g->gl.glClear(GL_COLOR_BUFFER_BIT);
         break;
     case GN_STEP_ZERO:
@@ -207,17 +219,19 @@ static void take_step(gn_gles *g, const gn_step *step)
     case GN_STEP_MARK:
     case GN_STEP_DARKEN:
     case GN_STEP_VOLUMES:
-        if (g->plan->lights[step->light].color.place == GN_PLACE_STENCIL)
-            gni_stencil_step(g, step);
-        else
+        if (GNI_HAS_FALLBACK && g->plan->lights[step->light].color.place != GN_PLACE_STENCIL)
             gni_color_step(g, step);
+        else
+            gni_stencil_step(g, step);
         break;
     case GN_STEP_NORMALISE:
     case GN_STEP_OPAQUE:
-        gni_color_step(g, step);
+        if (GNI_HAS_FALLBACK)
+            gni_color_step(g, step);
         break;
     default:
-        gni_mask_step(g, step);
+        if (GNI_HAS_FALLBACK)
+            gni_mask_step(g, step);
     }
 }
 
@@ -231,7 +245,8 @@ int gn_gles_next(gn_gles *g, gn_step *out)
         const gn_step *step = &g->plan->steps[g->at++];
         gni_state state;
 
-        gni_bind_for(g, step);
+        if (GNI_HAS_FALLBACK)
+            gni_bind_for(g, step);
         if (step->kind != GN_STEP_DRAW) {
             take_step(g, step);
             continue;
@@ -246,17 +261,22 @@ int gn_gles_next(gn_gles *g, gn_step *out)
     }
     gni_leave_state(g);
     g->gl.glScissor(0, 0, (GLsizei)g->plan->target.width, (GLsizei)g->plan->target.height);
-    if (g->may_switch & GNI_SWITCH_BOUNDS)
+    if (GNI_HAS_CULLING && g->may_switch & GNI_SWITCH_BOUNDS)
         g->gl.glDepthBoundsEXT(0.0, 1.0);
-    if (g->plan->mask_count > 0) {
+    if (GNI_HAS_FALLBACK && g->plan->mask_count > 0) {
         g->gl.glActiveTexture(GL_TEXTURE0);
         g->gl.glBindTexture(GL_TEXTURE_2D, 0);
     }
-    if (g->plan->mask_version && g->plan->mask_age == 0) {
+    if (GNI_HAS_CACHE && g->plan->mask_version && g->plan->mask_age == 0) {
         g->kept_masks[0] = g->plan->cache_id;
         g->kept_masks[1] = g->plan->mask_version;
     }
     g->plan = NULL;
     g->may_switch = 0;
     return 0;
+}
+
+uint32_t gn_gles_mask(const gn_gles *g, uint32_t mask)
+{
+    return GNI_HAS_FALLBACK && g && mask < g->images.mask_count ? g->images.masks[mask] : 0;
 }

@@ -180,7 +180,7 @@ gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan)
     if (!gni_make_reader(g, &g->resolve, "resolve", defines, gni_shader_resolve_frag) ||
         !gni_make_reader(g, &g->shade, "shade", defines, gni_shader_shade_frag) ||
         !gni_make_reader(g, &g->carry, "carry", defines, gni_shader_carry_frag) ||
-        (plan->mask == GN_MASK_STENCIL && !gni_make_refining_programs(g, defines)))
+        (GNI_HAS_REFINE && plan->mask == GN_MASK_STENCIL && !gni_make_refining_programs(g, defines)))
         return gn_fail(g->context, GN_E_DEVICE, "gn_gles_begin: the GL refuses a shader of masks: see the log");
     if (plan->mask_age == 0)
         return are_there(&g->images, plan) ? GN_OK : make(g, plan);
@@ -196,13 +196,6 @@ gn_result gni_prepare_images(gn_gles *g, const gn_plan *plan)
 static int is_of_target(gn_into into)
 {
     return into == GN_INTO_TARGET || into == GN_INTO_CORNER;
-}
-
-void gni_set_viewport(gn_gles *g)
-{
-    const uint32_t *size = g->into == GN_INTO_TARGET ? g->plan->viewport : g->plan->mask_size;
-
-    g->gl.glViewport(0, 0, (GLsizei)size[0], (GLsizei)size[1]);
 }
 
 static void bind(gn_gles *g, const gn_step *step)
@@ -231,9 +224,4 @@ void gni_bind_for(gn_gles *g, const gn_step *step)
     g->into = step->into;
     if (g->plan->scale > 1 && (before == GN_INTO_TARGET) != (g->into == GN_INTO_TARGET))
         gni_set_viewport(g);
-}
-
-uint32_t gn_gles_mask(const gn_gles *g, uint32_t mask)
-{
-    return g && mask < g->images.mask_count ? g->images.masks[mask] : 0;
 }

@@ -169,7 +169,7 @@ void gni_mask_step(gn_gles *g, const gn_step *step)
         clear_image(g);
         break;
     case GN_STEP_CLEAR_MASK:
-        if (g->plan->mask == GN_MASK_STENCIL)
+        if (GNI_HAS_REFINE && g->plan->mask == GN_MASK_STENCIL)
             gni_find_edges(g);
         else if (g->plan->carries_depth)
             carry(g, step);
@@ -177,7 +177,8 @@ void gni_mask_step(gn_gles *g, const gn_step *step)
             fill(g, 1.0f);
         break;
     case GN_STEP_REFINE:
-        gni_refine_step(g, step);
+        if (GNI_HAS_REFINE)
+            gni_refine_step(g, step);
         break;
     case GN_STEP_RESOLVE:
         resolve(g, step);

@@ -1,6 +1,6 @@
-// flat.frag - one colour, or one a side; while volumes are counted in a stencil no colour is written.
+// flat.frag - one colour, or one a side.
 //
-// COUNTED no uniform: drivers keep a copy of all that a fragment shader reads for each draw between which it changes
+// COUNTED no colour: as counted.frag
 // FACED   u_color for fronts, u_back for backs
 // SIDED   one side of triangles only: u_side 1 for fronts, -1 for backs. Read in main() alone: some drivers break
 //         gl_FrontFacing elsewhere

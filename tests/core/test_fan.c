@@ -94,7 +94,8 @@ static void fans_cover_what_caps_do(void **state)
     for (int trial = 0; trial < 400; trial++) {
         gn_mesh_desc desc;
         gn_mesh *mesh;
-        gni_hull box;
+        gn_object object = {0};
+        gn_light lamp = {.kind = GN_LIGHT_POINT};
         gni_casting *casting;
         uint32_t sides, counts[2];
         double light[4] = {0, 0, 0, 1}, length;
@@ -110,8 +111,11 @@ static void fans_cover_what_caps_do(void **state)
             light[i] *= test_uniform(&rng, 2.5, 9) / length;
         casting = &mesh->scratch;
         gni_find_casting(mesh, light, casting);
-        gni_box_hull(&box, &mesh->info, identity);
-        assert_int_equal(gni_light_is_outside(&box, light), 1);
+        object.mesh = mesh;
+        memcpy(object.model, identity, sizeof object.model);
+        for (int i = 0; i < 3; i++)
+            lamp.position[i] = light[i] + (double)mesh->info.centre[i];
+        assert_int_equal(gni_light_is_outside(&lamp, &object), 1);
         sides = gni_put_sides(mesh, 0, casting, 1, indices[1]);
         runs_round = gni_runs_round_hub(mesh, 0, indices[1], sides, 3, identity, light);
         counts[0] = gni_put_dark_cap(mesh, 0, casting, indices[0]);
