@@ -1,5 +1,7 @@
 /* minimal.c - exact shadows through EGL, with shaders of its own: a box over a floor. The steps are those of docs/porting.md.
- *     cc -std=c99 minimal.c $(pkg-config --cflags --libs gnomon) -lEGL -o minimal && EGL_PLATFORM=surfaceless ./minimal frame.ppm */
+ *     cc -std=c99 minimal.c $(pkg-config --cflags --libs gnomon) -lEGL -o minimal && EGL_PLATFORM=surfaceless ./minimal frame.ppm
+ * A second name is of what `gnomon probe --save` has written here: then nothing is proven by drawing. */
+/* clang-format off */
 #include <EGL/egl.h>
 #include <gn_matrix.h>
 #include <gnomon_gles.h>
@@ -29,10 +31,8 @@ static gn_proc get_proc(void *user, const char *name)
 /* 1. A context, with depth and stencil. A board takes its window here. */
 static void open_context(void)
 {
-    /* clang-format off */
     static const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT,
                                     EGL_ALPHA_SIZE, 8, EGL_DEPTH_SIZE, 24, EGL_STENCIL_SIZE, 8, EGL_NONE};
-    /* clang-format on */
     static const EGLint size[] = {EGL_WIDTH, WIDTH, EGL_HEIGHT, HEIGHT, EGL_NONE},
                         two[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
     const EGLDisplay display = eglGetDisplay(EGL_DEFAULT_DISPLAY);
@@ -100,22 +100,24 @@ int main(int count, char **arguments)
     const gn_mesh_desc desc[2] = {{floor_at, 4, 0, triangles, 2, 0.0}, {box_at, 8, 0, triangles, 12, 0.0}};
     const gn_light light = {.kind = GN_LIGHT_POINT, .position = {1.5, 5.0, 2.0}};
     gn_object objects[2] = {{.flags = GN_RECEIVES}, {.flags = GN_RECEIVES | GN_CASTS}};
-    gn_scene scene = {.camera = {.left = -0.6, .right = 0.6, .bottom = -0.45, .top = 0.45, .znear = 0.1},
-                      .lights = &light,
-                      .light_count = 1,
-                      .objects = objects,
-                      .object_count = 2};
+    gn_scene scene = {.camera = {.world = {1, 0, 0, 0, 0, 0.92388, -0.382683, 0, 0, 0.382683, 0.92388, 0, 0, 4, 8, 1},
+                                 .left = -0.6, .right = 0.6, .bottom = -0.45, .top = 0.45, .znear = 0.1},
+                      .lights = &light, .light_count = 1, .objects = objects, .object_count = 2};
     const gn_gles_desc opening = {.get_proc = get_proc};
     static unsigned char pixels[HEIGHT][WIDTH][4];
+    static char saved[8192];
+    FILE *f = count > 2 ? fopen(arguments[2], "rb") : NULL;
     gn_context *context;
     const gn_plan *plan;
     gn_gles *gles;
     gn_step step;
 
+    if (f && fread(saved, 1, sizeof saved - 1, f) > 0)
+        fclose(f);
     open_context();
     /* 3. Once: the library, what can be done here, and the meshes. */
     if (gn_context_create(NULL, &context) != GN_OK || gn_gles_create(context, &opening, &gles) != GN_OK ||
-        gn_gles_describe_target(gles, WIDTH, HEIGHT, NULL, &scene.target) != GN_OK)
+        gn_gles_describe_target(gles, WIDTH, HEIGHT, saved, &scene.target) != GN_OK)
         fail(gn_message(context));
     for (int i = 0; i < 2; i++) {
         gn_mesh *mesh;
@@ -127,9 +129,7 @@ int main(int count, char **arguments)
     const gn_gl *gl = gn_gles_functions(gles);
     const GLuint program = make_program(gl);
 
-    /* 4. Each frame: where the eye is, a plan, and its steps. */
-    gn_mat4_from_trs(scene.camera.world, (double[]){0, 4, 8}, (double[]){-0.19509, 0, 0, 0.980785},
-                     (double[]){1, 1, 1});
+    /* 4. Each frame: what moves (here nothing), a plan, and its steps. */
     const size_t size = gn_plan_bound(&scene); /* a host asks once, for the most that it will have */
     if (gn_plan_make(context, &scene, malloc(size), size, &plan) != GN_OK || gn_gles_begin(gles, plan) != GN_OK)
         fail(gn_message(context));
@@ -139,8 +139,7 @@ int main(int count, char **arguments)
         else if (step.draw == GN_DRAW_LIGHT && step.receivers)
             draw_everything(gl, program, plan, 0.75f);
     gl->glReadPixels(0, 0, WIDTH, HEIGHT, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
-    FILE *f = count > 1 ? fopen(arguments[1], "wb") : NULL;
-    if (!f)
+    if (!(f = fopen(count > 1 ? arguments[1] : "", "wb")))
         fail("give the name of a picture");
     fprintf(f, "P6 %d %d 255\n", WIDTH, HEIGHT);
     for (int i = 0; i < WIDTH * HEIGHT; i++)

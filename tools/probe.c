@@ -20,6 +20,9 @@ const char help_probe[] =
     "\n"
     "  --platform NAME       only this one: egl or osmesa [all]\n"
     "  --hide CAP[,CAP...]   pretends that capabilities are absent, as GNOMON_HIDE in the environment does\n"
+    "  --save FILE           what the first context proved, as gn_gles_save_target() writes it: for programs on this "
+    "very\n"
+    "                        driver that have not the time, or not the code, to prove it themselves\n"
     "  --json                for machines\n"
     "  --help                this text\n";
 
@@ -128,7 +131,8 @@ static cJSON *describe(platform *p, gn_context *context, const gn_gles *gles, co
     return o;
 }
 
-static cJSON *probe(const platform_kind *kind, const char *hide)
+/* saved: becomes the text of gn_gles_save_target(), the caller's to free; stays NULL where there is no context. */
+static cJSON *probe(const platform_kind *kind, const char *hide, char **saved)
 {
     const platform_desc wanted = {64, 64, 8, 8, 8, 8, 24, 8};
     char message[PLATFORM_MESSAGE];
@@ -144,6 +148,13 @@ static cJSON *probe(const platform_kind *kind, const char *hide)
     if (p && gn_context_create(&port, &context) == GN_OK && gn_gles_create(context, &desc, &gles) == GN_OK &&
         gn_gles_describe_target(gles, p->actual.width, p->actual.height, NULL, &target) == GN_OK)
         o = describe(p, context, gles, &target);
+    if (o) {
+        const size_t length = gn_gles_save_target(gles, &target, NULL, 0);
+
+        *saved = malloc(length + 1);
+        if (*saved)
+            gn_gles_save_target(gles, &target, *saved, length + 1);
+    }
     if (!o) {
         o = cJSON_CreateObject();
         cJSON_AddStringToObject(o, "platform", kind->name);
@@ -190,17 +201,30 @@ static void print_table(const cJSON *o, int indent)
     }
 }
 
+static int write_saved(const char *path, const char *saved)
+{
+    fresh_file f;
+
+    if (!saved) {
+        say("%s: no context, nothing to be saved", path);
+        return EXIT_MISSING;
+    }
+    return fresh_open(&f, path) && fresh_close(&f, fputs(saved, f.file) >= 0) ? EXIT_DONE : EXIT_FAILED;
+}
+
 int command_probe(int count, char **arguments)
 {
-    const char *only = NULL, *hide = NULL;
+    const char *only = NULL, *hide = NULL, *save = NULL;
     int json = 0, known = 0;
     const option options[] = {{"--platform", OPTION_TEXT, &only, 0, 0},
                               {"--hide", OPTION_TEXT, &hide, 0, 0},
+                              {"--save", OPTION_TEXT, &save, 0, 0},
                               {"--json", OPTION_FLAG, &json, 0, 0}};
     cJSON *all;
-    char *text;
+    char *text, *saved = NULL;
+    int status;
 
-    count = parse_options(count, arguments, options, 3);
+    count = parse_options(count, arguments, options, 4);
     if (count != 0) {
         if (count > 0)
             say("probe: takes no names (%s)", arguments[0]);
@@ -210,12 +234,17 @@ int command_probe(int count, char **arguments)
         return EXIT_USAGE;
     all = cJSON_CreateArray();
     for (int i = 0; platform_kinds[i]; i++) {
+        char *of_this = NULL;
         cJSON *o;
 
         if (only && strcmp(only, platform_kinds[i]->name) != 0)
             continue;
         known = 1;
-        o = probe(platform_kinds[i], hide);
+        o = probe(platform_kinds[i], hide, &of_this);
+        if (!saved)
+            saved = of_this;
+        else
+            free(of_this);
         cJSON_AddItemToArray(all, o);
         if (!json) {
             print_table(o, 0);
@@ -232,5 +261,7 @@ int command_probe(int count, char **arguments)
         printf("%s\n", text);
     free(text);
     cJSON_Delete(all);
-    return EXIT_DONE;
+    status = save ? write_saved(save, saved) : EXIT_DONE;
+    free(saved);
+    return status;
 }

@@ -10,7 +10,7 @@ import numpy as np
 FLOOR = np.array([(-4, 0, -4), (-4, 0, 4), (4, 0, 4), (4, 0, -4)], float)
 LOW, HIGH = np.array((-1.0, 1, -1)), np.array((1.0, 2, 1))
 LIGHT, EYE = np.array((1.5, 5.0, 2.0)), np.array((0.0, 4, 8))
-SINE = -2 * 0.19509 * 0.980785
+SINE = -0.382683
 COLORS = np.array([(0.80, 0.75, 0.65), (0.85, 0.35, 0.25)])
 CAN = 1e-9
 
