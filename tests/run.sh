@@ -50,6 +50,8 @@ count tests/tools/view.sh $? "$build/one.log"
 case $build in *asan*) ;; *)
     sh tests/core/lanes.sh "$build" "${CC:-gcc}" > "$build/one.log" 2>&1
     count tests/core/lanes.sh $? "$build/one.log"
+    sh tests/tools/features.sh "$build" "${CC:-gcc}" > "$build/one.log" 2>&1
+    count tests/tools/features.sh $? "$build/one.log"
     ;;
 esac
 # What is drawn, the name of the table's file, its options.
