@@ -7,6 +7,7 @@
 #include "gni.h"
 
 #include <math.h>
+#include <string.h>
 
 gn_result gni_check_camera(gn_context *context, const gn_camera *camera)
 {
@@ -84,4 +85,20 @@ double gni_depth_of(const gn_camera *camera, const double range[2], double dista
     if (gni_is_orthographic(camera))
         return (distance - range[0]) / (range[1] - range[0]);
     return (1.0 - range[0] / distance) * (gni_has_finite_far(camera) ? range[1] / (range[1] - range[0]) : 1.0);
+}
+
+void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16])
+{
+    memset(out, 0, sizeof *out);
+    out->point_count = 8;
+    for (int c = 0; c < 8; c++) {
+        double p[3];
+
+        for (int axis = 0; axis < 3; axis++)
+            p[axis] = (double)(c >> axis & 1 ? info->box_max[axis] : info->box_min[axis]);
+        gn_mat4_transform(out->points[c], model_view, p, 1.0);
+    }
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++)
+            out->edges[i][k] = out->points[1 << i][k] - out->points[0][k];
 }

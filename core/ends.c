@@ -456,3 +456,16 @@ int gni_choose_ends(gni_ends *ends, const gni_region *region, const gn_mesh *mes
     ends->reach = 0.0;
     return region->is_deep ? 0 : choose_each(ends, &s, casting, end_of);
 }
+
+void gni_extrusion_by(double out[16], const double light[4], double reach)
+{
+    const double length = sqrt(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
+    const int is_sun = light[3] == 0.0;
+
+    for (int i = 0; i < 16; i++)
+        out[i] = i % 5 == 0 ? 1.0 : 0.0;
+    for (int i = 0; i < 3; i++) {
+        out[5 * i] = is_sun ? 1.0 : reach;
+        out[12 + i] = is_sun ? -reach * light[i] / length : (1.0 - reach) * light[i] / light[3];
+    }
+}

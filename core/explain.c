@@ -157,7 +157,9 @@ size_t gn_plan_explain_warning(const gn_plan *plan, gn_warning warning, char *te
         return 0;
     switch (warning) {
     case GN_WARN_OVERFLOW:
-        gni_put(&s, "more triangles cast than a stencil counts that does not wrap: deep shadows may be wrong");
+        gni_put(&s, GNI_HAS_BATCHES
+                        ? "more triangles cast than a stencil counts that does not wrap: deep shadows may be wrong"
+                        : "more triangles may cast than a stencil counts, without batches: deep shadows may be wrong");
         break;
     case GN_WARN_ENDLESS:
         gni_put(

@@ -6,8 +6,6 @@
  * expression serves point lights and directional ones, infinite and ended volumes. */
 #include "gni.h"
 
-#include <math.h>
-
 void gni_extrusion(double out[16], const double light[4], const double plane[4])
 {
     const double s = plane[0] * light[0] + plane[1] * light[1] + plane[2] * light[2] + plane[3] * light[3];
@@ -15,17 +13,4 @@ void gni_extrusion(double out[16], const double light[4], const double plane[4])
     for (int column = 0; column < 4; column++)
         for (int row = 0; row < 4; row++)
             out[4 * column + row] = (row == column ? s : 0.0) - light[row] * plane[column];
-}
-
-void gni_extrusion_by(double out[16], const double light[4], double reach)
-{
-    const double length = sqrt(light[0] * light[0] + light[1] * light[1] + light[2] * light[2]);
-    const int is_sun = light[3] == 0.0;
-
-    for (int i = 0; i < 16; i++)
-        out[i] = i % 5 == 0 ? 1.0 : 0.0;
-    for (int i = 0; i < 3; i++) {
-        out[5 * i] = is_sun ? 1.0 : reach;
-        out[12 + i] = is_sun ? -reach * light[i] / length : (1.0 - reach) * light[i] / light[3];
-    }
 }

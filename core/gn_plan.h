@@ -337,7 +337,7 @@ typedef struct gn_plan_caster {
 /* What a plan cannot keep, known before the frame. */
 typedef enum gn_warning {
     /* Counting stops at the ends of the range and more triangles cast than that: nothing proves that they are not
-     * behind each other on some line of sight. */
+     * behind each other on some line of sight. Without the feature batches also where more may be than a stencil counts. */
     GN_WARN_OVERFLOW,
     /* Volumes of orthographic cameras that were left out, because the light is so close to so many large triangles that
      * their ends need too many planes. */

@@ -268,7 +268,7 @@ void gni_light_in_view(const gn_camera *camera, const gn_light *light, double ou
 /* extrude.c */
 /* The matrix that moves a point away from the light onto a plane: (plane . light) I - light plane^T. */
 void gni_extrusion(double out[16], const double light[4], const double plane[4]);
-/* The matrix that moves a point away from the light by a factor of its distance, or, directional, by a distance. */
+/* ends.c: the matrix that moves a point away from the light by a factor of its distance, or, directional, by a distance. */
 void gni_extrusion_by(double out[16], const double light[4], double reach);
 
 /* text.c: writes like snprintf, piece by piece. */
@@ -365,14 +365,14 @@ typedef struct gni_hull {
     double edges[3][3]; /* of a box: from its first corner */
 } gni_hull;
 
-void gni_cross(double out[3], const double a[3], const double b[3]);
+void gni_cross(double out[3], const double a[3], const double b[3]); /* matrix.c */
 static inline double gni_dot(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 /* Three axes of unit length, at right angles, the third along `axis` (not 0). */
 void gni_make_axes(double axes[3][3], const double axis[3]);
-/* The box around a mesh, in view space. */
+/* camera.c: the box around a mesh, in view space. */
 void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16]);
 /* The most that a matrix stretches a length, or a little more. */
 double gni_stretch(const double m[16]);

@@ -1,25 +1,26 @@
-/* gni_features.h - what a build may do without, so that what is left fits a small board: `make FEATURES="..."` names what it
- * keeps, and says by files what goes with the rest (Makefile).
+/* gni_features.h - what a build may do without, so that what is left fits a small board: `make FEATURES="..."` names what
+ * it keeps, and the Makefile says by files what goes with the rest, and which feature stands on which.
  *
- *     culling   the method stencil, which draws what a scene requires; cameras and targets whose volumes must end. Without:
- *               zfail and zpass, in the whole target
- *     batches   more layers than a stencil counts. Without: the plan warns (GN_WARN_OVERFLOW) where it does not know that they fit
+ *     culling   the method stencil, which draws what a scene requires; cameras and targets whose volumes must end; lights
+ *               made soft; errors of casters and planes of meshes in what is told. Without: zfail and zpass, in the whole target
+ *     batches   more layers than a stencil counts. Without: the plan warns (GN_WARN_OVERFLOW) where it does not know that
+ *               they fit
  *     fallback  stencils of one side or without wrapping; counts without a stencil; masks in textures, and small ones
  *     refine    small masks refined
  *     cache     shadows and masks that stay from frame to frame
  *     welding   gn_mesh_desc.weld_angle
  *     clusters  facing in floats, by a tree. Without: triangle by triangle in double, by which the bits are the same
  *     solids    proofs that a closed part does not pass through itself, and that a light is outside it. Without: only parts
- *               that a point sees all of are solid, and each triangle casts of others, and of those whose box a light is in; objects that
- *               their matrix flattens are refused
- *     proofs    capabilities proven by drawing; gn_gles_desc.hide; gn_gles_draw_volumes(). Without: capabilities are those of a
- *               text that another build has saved of the same driver and target (`gnomon probe --save`)
+ *               that a point sees all of are solid, and each triangle casts of others, and of those whose box a light is
+ *               in; objects that their matrix flattens are refused
+ *     proofs    capabilities proven by drawing; gn_gles_desc.hide; gn_gles_draw_volumes(). Without: capabilities are those
+ *               of a text that another build has saved of the same driver and target (`gnomon probe --save`)
  *     messages  sentences: of errors, and why a plan has its method. Without: gn_message() says that they are not there
  *     selector  gn_select.h; gn_plan.traffic
  *     text      rules and knowledge as text, explanations, JSON
  *
- * What a build lacks is refused, with the feature's name where it has messages. Each file of the house asks `GNI_HAS_...` where it calls what may not be
- * there. */
+ * What a build lacks is refused, with the feature's name where it has messages. The code asks `GNI_HAS_...` where it calls
+ * what may not be there: a constant, so that the compiler drops the rest. */
 #ifndef GNI_FEATURES_H
 #define GNI_FEATURES_H
 #include "gnomon.h"

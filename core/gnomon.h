@@ -14,6 +14,8 @@
  * threads   no globals. A context and all made from it: one thread at a time. Different contexts: different threads
  * errors    gn_result from all that can fail; outputs stay untouched unless a comment says otherwise. gn_message() has
  *           the sentence with the numbers in it
+ * features  a library may be built to do less (FEATURES in the Makefile; core/gni_features.h). What it lacks it refuses with
+ *           GN_E_DEVICE, or the linker does: functions of rules, the selector, explanations and JSON are not there then
  * floats    compile this library without -ffast-math: closed volumes rest on IEEE arithmetic */
 #ifndef GNOMON_H
 #define GNOMON_H
@@ -44,7 +46,7 @@ typedef enum gn_result {
     GN_E_MEMORY, /* the port's allocator gave NULL; nothing has changed */
     GN_E_SPACE,  /* the memory or array given is too small; the message says what is needed */
     GN_E_MESH,   /* an index out of range or a vertex not finite; the message names the first */
-    GN_E_DEVICE  /* this target cannot do it; the message names what is missing */
+    GN_E_DEVICE /* this target, or this build of the library (FEATURES), cannot do it; the message names what is missing */
 } gn_result;
 
 /* ---- Context: a port and the last message ---- */
@@ -56,7 +58,8 @@ typedef struct gn_context gn_context;
 gn_result gn_context_create(const gn_port *port, gn_context **context);
 void gn_context_destroy(gn_context *context);
 
-/* The last failure, as a sentence. Never NULL; valid until the next call on the context. */
+/* The last failure, as a sentence. Never NULL; valid until the next call on the context. A build without the feature
+ * messages has one sentence for all. */
 const char *gn_message(const gn_context *context);
 
 /* For the rooms above (gles, fallback), which fail and allocate through the same context: sets the message and
@@ -112,7 +115,7 @@ typedef struct gn_mesh_info {
     /* The greatest length of what faces the light together; 0 without a weld angle. Object space, of the first shape. */
     double weld_error;
     uint32_t shape;                 /* how often gn_mesh_update() has changed it */
-    int planar;                     /* 1: all triangles lie in one plane; 2: and are wound alike */
+    int planar;                     /* 1: all triangles lie in one plane; 2: and are wound alike. 0 without culling */
     const float *positions;         /* [vertex_count][3], welded, less the centre */
     const uint32_t *triangles;      /* [triangle_count][3], into positions */
     const gn_chunk *chunks;         /* [chunk_count] */

@@ -12,13 +12,6 @@
 #include <math.h>
 #include <string.h>
 
-void gni_cross(double out[3], const double a[3], const double b[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 void gni_make_axes(double axes[3][3], const double axis[3])
 {
     const double length = sqrt(gni_dot(axis, axis));
@@ -35,22 +28,6 @@ void gni_make_axes(double axes[3][3], const double axis[3])
         axes[2][i] = axis[i] / length;
     }
     gni_cross(axes[1], axes[2], axes[0]);
-}
-
-void gni_box_hull(gni_hull *out, const gn_mesh_info *info, const double model_view[16])
-{
-    memset(out, 0, sizeof *out);
-    out->point_count = 8;
-    for (int c = 0; c < 8; c++) {
-        double p[3];
-
-        for (int axis = 0; axis < 3; axis++)
-            p[axis] = (double)(c >> axis & 1 ? info->box_max[axis] : info->box_min[axis]);
-        gn_mat4_transform(out->points[c], model_view, p, 1.0);
-    }
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 3; k++)
-            out->edges[i][k] = out->points[1 << i][k] - out->points[0][k];
 }
 
 /* By the greatest row sum of its square (Gershgorin). */

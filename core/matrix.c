@@ -1,7 +1,7 @@
-/* matrix.c - the few 4x4 matrix operations that placing casters, lights and cameras needs, in double precision.
+/* matrix.c - the few 4x4 matrix operations that placing casters, lights and cameras needs, in double precision; and a product of vectors.
  *
  * Sums run in a fixed order (left to right over the inner index), so that equal inputs give equal bits everywhere. */
-#include "gn_matrix.h"
+#include "gni.h"
 
 #include <math.h>
 #include <string.h>
@@ -87,4 +87,11 @@ void gn_mat4_to_float(float out[16], const double m[16])
 {
     for (int i = 0; i < 16; i++)
         out[i] = (float)m[i];
+}
+
+void gni_cross(double out[3], const double a[3], const double b[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
 }

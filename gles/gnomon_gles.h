@@ -93,19 +93,19 @@ const gn_gl *gn_gles_functions(const gn_gles *gl);
  *
  * width, height  of the framebuffer, which the GL does not tell
  * saved          a text of gn_gles_save_target(): if it is of this driver and such a target, nothing is drawn. Anything
- *                else, NULL too, is passed over
+ *                else, NULL too, is passed over; a library without the feature proofs refuses it
  * Tells the port's log of each capability that is found, by drawing, to be advertised and to fail. Framebuffers that
  * cannot be read as plain levels (multisampled objects, floats, integers, sRGB), and those under 16 pixels wide or
  * high, are proven on a framebuffer object of 8 bits a channel, 24 of depth and 8 of stencil; what blending does to
  * levels that are not plain counts as not advertised. Returns GN_OK; GN_E_ARG; GN_E_DEVICE when the framebuffer is not
- * complete. */
+ * complete. A library without the feature culling asks for no extension. */
 gn_result gn_gles_describe_target(gn_gles *gl, uint32_t width, uint32_t height, const char *saved, gn_target *target);
 
 /* What a failed proof saw, in the target described last: "0 - 1 is not 255 (0 255 0 255)". "" when it did not fail. */
 const char *gn_gles_symptom(const gn_gles *gl, gn_capability capability);
 
 /* Writes what was proven of the target described last as a text of some lines, to be given back on the next start. Like
- * snprintf: always terminated when capacity > 0; returns the length that the whole has. */
+ * snprintf: always terminated when capacity > 0; returns the length that the whole has. Not there without proofs. */
 size_t gn_gles_save_target(const gn_gles *gl, const gn_target *target, char *text, size_t capacity);
 
 /* Puts a mesh into buffers: 32 bytes a chunk vertex (near and far), 6 a triangle. Once before the first plan that has

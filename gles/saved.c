@@ -33,6 +33,7 @@ static int head_of(const gn_gles *g, const gn_target *t, char head[HEAD])
     return length > 0 && length < HEAD;
 }
 
+#if GNI_HAS_PROOFS
 typedef struct writer {
     char *text;
     size_t capacity, length;
@@ -67,6 +68,7 @@ size_t gn_gles_save_target(const gn_gles *g, const gn_target *t, char *text, siz
         text[w.length < capacity ? w.length : capacity - 1] = '\0';
     return w.length;
 }
+#endif
 
 /* The line "NAME: " of a text, and what follows in it. */
 static const char *line_of(const char *text, const char *name)

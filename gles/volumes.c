@@ -35,6 +35,7 @@ static void point_at(gn_gles *g, const gn_mesh *mesh, uint32_t chunk)
                                 (const void *)((uintptr_t)vertex * 8 * sizeof(float)));
 }
 
+#if GNI_HAS_CULLING
 void gni_draw_surface(gn_gles *g, const gn_plan_object *object)
 {
     const gn_gl *gl = &g->gl;
@@ -48,6 +49,7 @@ void gni_draw_surface(gn_gles *g, const gn_plan_object *object)
                            (const void *)((uintptr_t)info->chunks[c].first_triangle * 3 * sizeof(uint16_t)));
     }
 }
+#endif
 
 void gni_draw_record(gn_gles *g, const gn_plan *plan, const gn_record *r, int turned)
 {
