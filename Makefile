@@ -32,7 +32,7 @@ B       := build/$(notdir $(CROSS))$(VARIANT)$(if $(LACKS),-with$(subst $(empty)
 # For Debian's own two, and where no recipe says what the board has, a root of Debian is made for the command.
 ARCH    := $(if $(SYSROOT)$(PKG_CONFIG_LIBDIR)$(PKG_CONFIG_SYSROOT_DIR),,$(if $(filter arm-linux-gnueabihf-,$(CROSS)),armhf,$(if $(filter aarch64-linux-gnu-,$(CROSS)),arm64)))
 ifneq ($(ARCH),)
-SYSROOT := build/root-$(ARCH)
+override SYSROOT := build/root-$(ARCH)
 ROOT    := $(SYSROOT)/.whole
 FOUND   := $(abspath $(SYSROOT))/usr
 override PKG_CONFIG := env PKG_CONFIG_SYSROOT_DIR=$(abspath $(SYSROOT)) PKG_CONFIG_LIBDIR=$(FOUND)/lib/$(patsubst %-,%,$(CROSS))/pkgconfig:$(FOUND)/share/pkgconfig pkg-config
@@ -54,7 +54,7 @@ FLAGS    = -std=c99 $(SYSTEM_$(firstword $(subst /, ,$<))) $(WARN) $(WERROR) -ff
 
 # What a feature is, by the files that a build without it has not: core/gni_features.h says what it then cannot do,
 core     = $(patsubst %,core/%.c,$(1))
-files_culling  := $(call core,bounds ends cases cells extent fronts intervals patches receivers slivers fan flats)
+files_culling  := $(call core,bounds ends cases cells extent fronts intervals patches receivers slivers fan flats hull soft)
 files_batches  := $(call core,batches sweep)
 files_fallback   := $(call core,batches_color choose_color fragments) $(wildcard gles/fallback/*.c)
 files_refine   := $(call core,plan_refine thin) gles/fallback/refine.c
@@ -62,7 +62,7 @@ files_cache    := $(call core,cache kept_masks kept_records streams)
 files_clusters := $(call core,clusters order facing_floats)
 files_welding  := $(call core,groups)
 files_solids   := $(call core,embedded)
-files_proofs   := $(wildcard gles/proofs/*.c) gles/show.c
+files_proofs   := $(wildcard gles/proofs/*.c) gles/show.c gles/host_state.c
 files_selector := $(call core,select selector suitability knowledge learn loads possible fuzzy rules_about rules_default select_explain traffic)
 files_text     := $(call core,rules scan slices knowledge_read explain plan_json)
 
@@ -100,6 +100,8 @@ WITHOUT := $(foreach f,$(LACKS),$(files_$f))
 LIBRARY := $(call objects,port/port_libc.c $(filter-out $(WITHOUT),$(wildcard core/*.c gles/*.c gles/*/*.c)) $(wildcard $(LACKS:%=core/without/%.c)))
 TOOLS   := $(filter-out $(B)/tools/main.o %/bake_font.o,$(call objects,tools/*.c tools/*/*.c platforms/*.c))
 SUPPORT := $(filter-out %/keep_open.o,$(call objects,tests/support/*.c port/port_template.c))
+# It calls all features.
+COMMAND := $(if $(LACKS),,$(B)/gnomon)
 SHADERS := $(patsubst %,$(B)/%.h,$(wildcard gles/shaders/* rules/default.fcl))
 # Of the command alone: the library needs no font.
 DRAWN   := $(patsubst %,$(B)/%.h,$(wildcard tools/stage/shaders/* tools/view/shaders/*)) $(B)/tools/view/font.h
@@ -116,11 +118,10 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: footprint footprint-page all deps deps-drivers demo test test-drivers test-arm arm-tests angle truth bench trade selector certify boards headers layers asan valgrind size install install-lib format clean help check-build force
+.PHONY: footprint footprint-page all deps deps-drivers demo test test-drivers test-arm arm-tests angle truth bench trade selector certify boards headers layers asan valgrind size sizes install install-lib format clean help check-build force
 .SECONDARY:
 
-# The command calls all features.
-all: $(B)/libgnomon.a $(if $(LACKS),,$(B)/gnomon) $(call objects,port/port_template.c) ## build the library and the command
+all: $(B)/libgnomon.a $(COMMAND) $(call objects,port/port_template.c) ## build the library and the command
 
 demo: $(B)/gnomon $(SCENES) ## draw a sundial in a courtyard, headless, into build/demo.png
 	@$(B)/gnomon render build/scenes/courtyard.gltf -o build/demo.png --size 1280x800 --report build/demo.json
@@ -197,7 +198,7 @@ layers: $(B)/libgnomon.a ## arrows point down only; the library takes memory fro
 	@[ $(VARIANT) = asan ] || $(CROSS)size -A $(LIBRARY) | awk '$$1 ~ /^\.(data|bss)(\.[^r]|$$)/ {n += $$2} END {exit n != 0}'
 
 check-build: all ## install into a scratch root and build a program against what is there
-	@sh tests/install.sh $(B) "$(CC)"
+	@FEATURES="$(FEATURES)" sh tests/install.sh $(B) $(VARIANT) "$(CC)"
 
 asan: ## the tests under ASan and UBSan
 	@TRUTH_ARGS="--size 160x120" $(MAKE) --no-print-directory VARIANT=asan test
@@ -206,8 +207,10 @@ valgrind: $(TESTS) $(B)/gnomon $(SCENES) ## the tests that matter for memory und
 	@sh tests/valgrind.sh $(B)
 
 size: ## bytes per object of the library, built with -Os
-	@$(MAKE) --no-print-directory VARIANT=size build/$(notdir $(CROSS))size/libgnomon.a
-	@$(CROSS)size -t build/$(notdir $(CROSS))size/libgnomon.a
+	@$(MAKE) --no-print-directory VARIANT=size sizes
+
+sizes: $(B)/libgnomon.a
+	@$(CROSS)size -t $<
 
 # Objects of their own, since call graphs are written beside them.
 footprint: ## bytes of code, stack and heap for armhf, into docs/footprint.md (debootstrap, qemu)
@@ -217,9 +220,8 @@ footprint-page: $(B)/libgnomon.a $(B)/tests/bench/bench_memory
 	@$(PYTHON) tests/footprint.py $(CROSS) $(B) qemu-arm-static -L $(SYSROOT) $(B)/tests/bench/bench_memory > build/footprint.md && \
 	  mv build/footprint.md docs/footprint.md
 
-install: install-lib $(B)/gnomon ## library, headers, gnomon.pc and the command under DESTDIR and PREFIX
-	install -d $(D)/bin
-	install -m 755 $(B)/gnomon $(D)/bin
+install: install-lib $(COMMAND) ## library, headers, gnomon.pc and the command under DESTDIR and PREFIX
+	$(if $(COMMAND),install -d $(D)/bin && install -m 755 $(COMMAND) $(D)/bin)
 
 install-lib: $(B)/libgnomon.a ## the same without the command, which alone needs cJSON and libpng
 	install -d $(D)/include/gnomon $(D)/lib/pkgconfig
