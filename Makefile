@@ -16,7 +16,10 @@ HOST_PKG_CONFIG ?= env -u PKG_CONFIG_LIBDIR -u PKG_CONFIG_SYSROOT_DIR pkg-config
 FONT       ?= /usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf
 PYTHON     ?= python3
 EVERY_FEATURE := culling batches fallback refine cache welding clusters solids proofs messages selector text
-FEATURES   ?= $(EVERY_FEATURE)
+# Not from the environment: others use the name.
+ifneq ($(origin FEATURES),command line)
+FEATURES   := $(EVERY_FEATURE)
+endif
 
 ifeq ($(origin CC),default)
 CC := $(CROSS)gcc
@@ -63,8 +66,8 @@ files_clusters := $(call core,clusters order facing_floats)
 files_welding  := $(call core,groups)
 files_solids   := $(call core,embedded)
 files_proofs   := $(wildcard gles/proofs/*.c) gles/show.c gles/host_state.c
-files_selector := $(call core,select selector suitability knowledge learn loads possible fuzzy rules_about rules_default select_explain traffic)
-files_text     := $(call core,rules scan slices knowledge_read explain plan_json)
+files_selector := $(call core,select selector suitability knowledge learn loads possible fuzzy rules_about rules_default select_explain traffic rules scan slices knowledge_read)
+files_text     := $(call core,explain plan_json)
 
 # and which others it stands on.
 needs_batches  := culling
@@ -114,6 +117,9 @@ PUBLIC  := port/gn_port.h core/gnomon.h core/gn_plan.h core/gn_capability.h core
 SCENES  := build/scenes/scenes.txt
 
 .DEFAULT_GOAL := all
+ifneq ($(and $(LACKS),$(filter demo test truth bench trade selector certify test-drivers test-arm boards asan valgrind footprint,$(MAKECMDGOALS))),)
+$(error all features are needed, and FEATURES lacks $(LACKS))
+endif
 ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
@@ -190,7 +196,7 @@ headers: ## each public header compiles alone, as C99 and, where there is a comp
 	  echo 'extern int some;' | $(CC) -x c++ -Wall -Wextra -Wpedantic -Werror -Iport -Icore -Igles -include $$h -fsyntax-only - || exit 1; done
 
 layers: $(B)/libgnomon.a ## arrows point down only; the library takes memory from its port alone and has no globals
-	@! grep -nE '#include.*(GL|EGL|gles|platform|scene)' core/*.[ch] port/*.[ch]
+	@! grep -nE '#include.*(GL|EGL|gles|platform|scene)' core/*.[ch] core/without/*.c port/*.[ch]
 	@! grep -nE '#include.*(EGL|X11|osmesa|GLFW|platform|scene)' gles/*.[ch] gles/*/*.[ch]
 	@! grep -nE '#include.*(gnomon|gni|scene)' platforms/*.[ch]
 	@! grep -nE '#include.*gni' tools/*.[ch] tools/*/*.[ch]
@@ -198,7 +204,7 @@ layers: $(B)/libgnomon.a ## arrows point down only; the library takes memory fro
 	@[ $(VARIANT) = asan ] || $(CROSS)size -A $(LIBRARY) | awk '$$1 ~ /^\.(data|bss)(\.[^r]|$$)/ {n += $$2} END {exit n != 0}'
 
 check-build: all ## install into a scratch root and build a program against what is there
-	@FEATURES="$(FEATURES)" sh tests/install.sh $(B) $(VARIANT) "$(CC)"
+	@sh tests/install.sh $(B) $(VARIANT) "$(CC)" "$(FEATURES)"
 
 asan: ## the tests under ASan and UBSan
 	@TRUTH_ARGS="--size 160x120" $(MAKE) --no-print-directory VARIANT=asan test
@@ -227,7 +233,7 @@ install-lib: $(B)/libgnomon.a ## the same without the command, which alone needs
 	install -d $(D)/include/gnomon $(D)/lib/pkgconfig
 	install -m 644 $(PUBLIC) $(D)/include/gnomon
 	install -m 644 $(B)/libgnomon.a $(D)/lib
-	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' port/gnomon.pc.in > $(D)/lib/pkgconfig/gnomon.pc
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|; s|@FEATURES@|$(FEATURES)|' port/gnomon.pc.in > $(D)/lib/pkgconfig/gnomon.pc
 
 format: ## lay out every C file by .clang-format
 	clang-format -i $$(git ls-files '*.c' '*.h' | grep -v gl_funcs.h)

@@ -6,6 +6,8 @@
 #define NAME(constant, name, summary)    name "\0"
 #define SUMMARY(constant, name, summary) GNI_SENTENCE(summary) "\0"
 static const char names[] = GN_CAPABILITIES(NAME), summaries[] = GN_CAPABILITIES(SUMMARY);
+#undef NAME
+#undef SUMMARY
 
 static const char *text_of(const char *texts, gn_capability c)
 {

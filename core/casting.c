@@ -244,8 +244,13 @@ void gni_find_object_casting(const gn_object *object, const gn_light *light, gni
     const gn_mesh *mesh = object->mesh;
     double at[4];
 
-    if (gni_light_in_object(light, object, at) || !GNI_HAS_SOLIDS) {
+    if (gni_light_in_object(light, object, at)) {
         gni_find_casting(mesh, at, c);
+        return;
+    }
+    if (!GNI_HAS_SOLIDS) { /* plans refuse it */
+        memset(c->of, 0, mesh->info.triangle_count);
+        gni_find_bits(mesh, c);
         return;
     }
     facing_flattened(object, light, c->of);

@@ -73,7 +73,7 @@ const char *gn_message(const gn_context *context)
     if (!context)
         return "no context";
     return GNI_HAS_MESSAGES || context->message[0] ? context->message
-                                                   : "an error (this build lacks the feature messages)";
+                                                   : "no sentences: this build lacks the feature messages";
 }
 
 const gn_port *gn_context_port(const gn_context *context)

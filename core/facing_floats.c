@@ -50,7 +50,7 @@ static int side_of(const gn_mesh *mesh, const gni_node *n, const double light[4]
 #define LANES 1
 #elif defined(__GNUC__) && defined(__AVX2__)
 #define LANES 8
-#elif defined(__GNUC__) && (defined(__SSE__) || defined(__ARM_NEON))
+#elif defined(__GNUC__) && (!defined(__arm__) || defined(__ARM_NEON))
 #define LANES 4
 #else
 #define LANES 1

@@ -386,7 +386,7 @@ typedef struct gn_plan {
     /* What masks carry is (mask_depth[0] + mask_depth[1] z) / w of clip space, from 0 to 1, which is
      * linear on the image */
     double mask_depth[2];
-    gn_traffic traffic;
+    gn_traffic traffic; /* all 0 in a library without the feature selector */
     double clear_depth; /* 1, or the depth of zfar */
     /* View distances that depth 0 and 1 stand for. [0] is znear, or up to an eighth less, so that floats tell it from
      * w; [1] is INFINITY for most perspective cameras. */

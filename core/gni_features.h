@@ -16,11 +16,12 @@
  *     proofs    capabilities proven by drawing; gn_gles_desc.hide; gn_gles_draw_volumes(). Without: capabilities are those
  *               of a text that another build has saved of the same driver and target (`gnomon probe --save`)
  *     messages  sentences: of errors, and why a plan has its method. Without: gn_message() says that they are not there
- *     selector  gn_select.h; gn_plan.traffic
- *     text      rules and knowledge as text, explanations, JSON
+ *     selector  gn_select.h, rules and knowledge, also as text; gn_plan.traffic
+ *     text      explanations of plans, and their JSON
  *
  * What a build lacks is refused, with the feature's name where it has messages. The code asks `GNI_HAS_...` where it calls
- * what may not be there: a constant, so that the compiler drops the rest. */
+ * what may not be there: a constant, so that a compiler that optimises at all drops the rest; at
+ * -O0 small builds may not link. */
 #ifndef GNI_FEATURES_H
 #define GNI_FEATURES_H
 #include "gnomon.h"

@@ -15,7 +15,8 @@
  * errors    gn_result from all that can fail; outputs stay untouched unless a comment says otherwise. gn_message() has
  *           the sentence with the numbers in it
  * features  a library may be built to do less (FEATURES in the Makefile; core/gni_features.h). What it lacks it refuses with
- *           GN_E_DEVICE, or the linker does: functions of rules, the selector, explanations and JSON are not there then
+ *           GN_E_DEVICE, or the linker does: functions of rules, the selector, explanations and JSON are not there
+ *           then. `pkg-config --variable=features gnomon` lists what it has
  * floats    compile this library without -ffast-math: closed volumes rest on IEEE arithmetic */
 #ifndef GNOMON_H
 #define GNOMON_H
@@ -59,7 +60,7 @@ gn_result gn_context_create(const gn_port *port, gn_context **context);
 void gn_context_destroy(gn_context *context);
 
 /* The last failure, as a sentence. Never NULL; valid until the next call on the context. A build without the feature
- * messages has one sentence for all. */
+ * messages has one sentence for all, and sends no compiler's log to the port. */
 const char *gn_message(const gn_context *context);
 
 /* For the rooms above (gles, fallback), which fail and allocate through the same context: sets the message and
@@ -185,7 +186,8 @@ typedef struct gn_shadow_cache_desc {
     uint32_t masks_every;
 } gn_shadow_cache_desc;
 
-/* Returns GN_OK, GN_E_ARG, GN_E_MEMORY; *cache is NULL unless GN_OK. Without memory later the cache keeps less. */
+/* Returns GN_OK, GN_E_ARG, GN_E_MEMORY; GN_E_DEVICE in a library without the feature cache; *cache is NULL unless GN_OK. Without
+ * memory later the cache keeps less. */
 gn_result gn_shadow_cache_create(gn_context *context, const gn_shadow_cache_desc *desc, gn_shadow_cache **cache);
 void gn_shadow_cache_destroy(gn_shadow_cache *cache);
 

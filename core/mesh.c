@@ -78,7 +78,7 @@ static void find_hub(gn_mesh *mesh)
 
     for (int axis = 0; axis < 3; axis++) /* halves, since the sum may be too much for a float */
         mesh->info.hub[axis] = 0.5f * mesh->info.box_min[axis] + 0.5f * mesh->info.box_max[axis];
-    for (uint32_t v = 0; GNI_HAS_CULLING && v < mesh->info.vertex_count; v++) {
+    for (uint32_t v = 0; (GNI_HAS_CULLING || GNI_HAS_CLUSTERS) && v < mesh->info.vertex_count; v++) {
         double d[3], of_vertex;
 
         for (int axis = 0; axis < 3; axis++)
@@ -86,7 +86,7 @@ static void find_hub(gn_mesh *mesh)
         of_vertex = square_of(d);
         square = of_vertex > square ? of_vertex : square;
     }
-    mesh->radius = GNI_HAS_CULLING ? sqrt(square) : 0.0;
+    mesh->radius = sqrt(square);
 }
 
 void gni_find_planes(gn_mesh *mesh)
@@ -193,7 +193,7 @@ gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh 
     if (!(desc->weld_angle >= 0.0 && desc->weld_angle < 1.0))
         return gn_fail(context, GN_E_ARG, "gn_mesh_create: edges are welded by 0 to 1 radian (%g)", desc->weld_angle);
     if (!GNI_HAS_WELDING && desc->weld_angle > 0.0)
-        return gn_fail(context, GN_E_ARG, "gn_mesh_create: this build lacks the feature welding (%g radian)",
+        return gn_fail(context, GN_E_DEVICE, "gn_mesh_create: this build lacks the feature welding (%g radian)",
                        desc->weld_angle);
     mesh = gni_alloc(context, 1, sizeof *mesh);
     if (!mesh)

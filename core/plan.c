@@ -66,7 +66,7 @@ static int lay_out(gni_draft *d, arena *a)
             continue;
         if (gni_is_orthographic(&s->camera))
             ends = mesh->info.triangle_count < GNI_MAX_ENDS ? mesh->info.triangle_count + 1 : GNI_MAX_ENDS;
-        pieces = GNI_HAS_BATCHES ? gni_most_pieces(mesh, ends, limit) : 1;
+        pieces = GNI_HAS_BATCHES ? gni_most_pieces(mesh, ends, limit) : ends;
         if (GNI_HAS_CULLING)
             pieces += is_colored ? GNI_SPARE_PIECES * ends : GNI_MOST_INTERVALS - 1;
         if (mesh->info.chunk_count > (most - records) / (pieces + most_patches) ||
@@ -183,9 +183,15 @@ static void find_range(gni_draft *d)
         d->plan->depth_range[1] = s->camera.znear + 1.0; /* nothing in front of the camera */
 }
 
+/* Without culling: whether any of its box is before the eye. */
 static int may_be_seen(const gni_draft *d, uint32_t object)
 {
-    return !GNI_HAS_CULLING || gni_may_be_seen(&d->seen, &d->boxes[object]);
+    if (GNI_HAS_CULLING)
+        return gni_may_be_seen(&d->seen, &d->boxes[object]);
+    for (int corner = 0; corner < 8; corner++)
+        if (d->boxes[object].points[corner][2] < 0.0)
+            return 1;
+    return 0;
 }
 
 /* A step of depth at the view distance z is z^2 / (n 2^bits) wide. Surface and side are each rounded to one, the side

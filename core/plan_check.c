@@ -68,14 +68,14 @@ static gn_result check_object(gn_context *context, const gn_object *o, unsigned 
     for (int k = 0; k < 16; k++)
         if (!in_range(m + k, 1))
             return gn_fail(context, GN_E_ARG, "plan: object %lu: element %d of its matrix is %g", i, k, m[k]);
-    if (!GNI_HAS_SOLIDS && !gn_mat4_invert_affine(inverse, m))
-        return gn_fail(context, GN_E_DEVICE,
-                       "plan: object %lu: this build lacks the feature solids, and its matrix has no inverse", i);
     if (!(o->error >= 0.0 && o->error <= GNI_MOST))
         return gn_fail(context, GN_E_ARG, "plan: object %lu has an error of %g", i, o->error);
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0)
         return gn_fail(context, GN_E_ARG, "plan: object %lu: last row of its matrix is %g %g %g %g, not 0 0 0 1", i,
                        m[3], m[7], m[11], m[15]);
+    if (!GNI_HAS_SOLIDS && o->flags & GN_CASTS && !gn_mat4_invert_affine(inverse, m))
+        return gn_fail(context, GN_E_DEVICE,
+                       "plan: object %lu: this build lacks the feature solids, and its matrix has no inverse", i);
     return GN_OK;
 }
 

@@ -291,7 +291,8 @@ gn_result gni_add_passes(gni_draft *d)
         add_draw(d, GN_DRAW_FINAL);
     if (GNI_HAS_FALLBACK && d->plan->mask == GN_MASK_ALPHA)
         add(d, GN_STEP_OPAQUE);
-    if (d->scene->discards && !d->scene->precedes && gn_target_can(&d->scene->target, GN_CAN_DISCARD))
+    if (GNI_HAS_FALLBACK && d->scene->discards && !d->scene->precedes &&
+        gn_target_can(&d->scene->target, GN_CAN_DISCARD))
         add(d, GN_STEP_DISCARD);
     return GN_OK;
 }

@@ -112,8 +112,8 @@ int main(int count, char **arguments)
     gn_gles *gles;
     gn_step step;
 
-    if (f && fread(saved, 1, sizeof saved - 1, f) > 0)
-        fclose(f);
+    if (count > 2 && (!f || fread(saved, 1, sizeof saved - 1, f) == 0 || fclose(f) != 0))
+        fail("what was saved cannot be read");
     open_context();
     /* 3. Once: the library, what can be done here, and the meshes. */
     if (gn_context_create(NULL, &context) != GN_OK || gn_gles_create(context, &opening, &gles) != GN_OK ||

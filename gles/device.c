@@ -63,8 +63,8 @@ gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles 
             result = hide(context, "GNOMON_HIDE", port->setting(port->user, "GNOMON_HIDE"), &hidden);
         if (result != GN_OK)
             return result;
-    } else if (desc->hide) {
-        return gn_fail(context, GN_E_ARG, "gn_gles_desc.hide: this build lacks the feature proofs (%s)", desc->hide);
+    } else if ((desc->hide && desc->hide[0]) || (port->setting && port->setting(port->user, "GNOMON_HIDE"))) {
+        return gn_fail(context, GN_E_DEVICE, "gn_gles_create: this build lacks the feature proofs: it hides nothing");
     }
     g = port->resize(port->user, NULL, 0, sizeof *g);
     if (!g)

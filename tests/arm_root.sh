@@ -4,6 +4,7 @@
 set -e
 arch=$1 root=$2
 packages=libc6-dev,libegl1,libgles2,libegl-dev,libgles-dev,libgl1-mesa-dri,libosmesa6,libcjson-dev,libpng-dev,libmeshoptimizer-dev,libcmocka-dev,libglfw3-dev
+[ -n "$root" ] || { echo "arm_root: no folder"; exit 1; }
 [ -e "$root/.whole" ] && exit 0
 # The archive that this machine itself installs from.
 set -- $(apt-get indextargets --format '$(SITE) $(CODENAME)' | head -n 1)

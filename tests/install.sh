@@ -1,11 +1,11 @@
 #!/bin/sh
-# install.sh BUILD VARIANT CC - `make install` into a scratch root, and a program that is built from what pkg-config says and draws
+# install.sh BUILD VARIANT CC FEATURES - `make install` into a scratch root, and a program that is built from what pkg-config says and draws
 # nothing: it makes a mesh and a plan. Fails when a header or the library is missing from what is installed.
 set -e
-build=$1 variant=$2 cc=$3 root=$PWD/$1/installed
+build=$1 variant=$2 cc=$3 features=$4 root=$PWD/$1/installed
 case $build in *arm*|*aarch64*) exit 0 ;; esac
 rm -rf "$root"
-${MAKE:-make} -s --no-print-directory VARIANT="$variant" DESTDIR="$root" PREFIX=/usr install > /dev/null
+${MAKE:-make} -s --no-print-directory VARIANT="$variant" FEATURES="$features" DESTDIR="$root" PREFIX=/usr install > /dev/null
 cat > "$build/installed.c" <<'C'
 #include <gn_matrix.h>
 #include <gnomon_gles.h>

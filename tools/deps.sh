@@ -44,6 +44,7 @@ else
     need libfreetype-dev sh -c 'pkg-config --exists freetype2'
     need fonts-dejavu-core test -e /usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf
     need xvfb command -v Xvfb
+    need x11-utils command -v xprop
     need gnuplot-nox command -v gnuplot
     need chromium command -v chromium
     need python3-skimage /usr/bin/python3 -c "import skimage"

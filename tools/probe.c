@@ -151,7 +151,7 @@ static cJSON *probe(const platform_kind *kind, const char *hide, char **saved)
     if (o) {
         const size_t length = gn_gles_save_target(gles, &target, NULL, 0);
 
-        *saved = malloc(length + 1);
+        *saved = length ? malloc(length + 1) : NULL;
         if (*saved)
             gn_gles_save_target(gles, &target, *saved, length + 1);
     }
@@ -206,7 +206,7 @@ static int write_saved(const char *path, const char *saved)
     fresh_file f;
 
     if (!saved) {
-        say("%s: no context, nothing to be saved", path);
+        say("%s: no context of which anything could be saved", path);
         return EXIT_MISSING;
     }
     return fresh_open(&f, path) && fresh_close(&f, fputs(saved, f.file) >= 0) ? EXIT_DONE : EXIT_FAILED;

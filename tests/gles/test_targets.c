@@ -50,8 +50,8 @@ static void keep_log(void *user, int level, const char *line)
 {
     (void)user;
     (void)level;
-    strncat(warnings, line, sizeof warnings - strlen(warnings) - 2);
-    strcat(warnings, "\n");
+    if (strlen(warnings) + strlen(line) + 2 < sizeof warnings)
+        strcat(strcat(warnings, line), "\n");
 }
 
 static int open_on(const char *name, const char *hide)

@@ -67,17 +67,20 @@ refuses_scene() { # scene, feature
     truth --ways zfail build/scenes "$1" > "$tmp/refused" 2>&1
     grep -q "cannot be drawn: .*lacks the feature $2" "$tmp/refused"
 }
-ok "with proofs: tests are built" make_with release "messages proofs" tests/truth/truth_table
+ok "with proofs: tests are built" make_with release "messages proofs" tests/truth/truth_table tests/core/test_room
+ok "with proofs: plans stay in their memory" "$folder/tests/core/test_room"
 ok "with proofs: masks are right" truth --ways zfail build/scenes $scenes
 ok "with proofs: so are those of the extremes" truth --ways zfail --extremes build/scenes
 ok "and an orthographic camera is refused" refuses_scene ortho culling
 ok "as is a matrix without inverse" refuses_scene flattened solids
-ok "with culling: tests are built" make_with release "culling messages proofs" tests/truth/truth_table
+ok "with culling: tests are built" make_with release "culling messages proofs" tests/truth/truth_table tests/core/test_room tests/core/test_laws
+ok "with culling: plans stay in their memory" "$folder/tests/core/test_room"
+ok "with culling: volumes close, and shadow what is blocked" "$folder/tests/core/test_laws"
 ok "with culling: masks are right" truth --ways zfail,stencil build/scenes $scenes $(awk '$1 ~ /^ortho/ {print $1}' build/scenes/scenes.txt)
 
 if command -v arm-linux-gnueabihf-gcc > /dev/null; then
     arm=build/arm-linux-gnueabihf-size-with
-    make -s -j2 CROSS=arm-linux-gnueabihf- VARIANT=size FEATURES= $arm/libgnomon.a > "$tmp/out" 2>&1
+    ok "is built for armhf" make -s -j2 CROSS=arm-linux-gnueabihf- VARIANT=size FEATURES= $arm/libgnomon.a
     bytes=$("$python" tests/taken.py arm-linux-gnueabihf- $arm)
     ok "the smallest takes less than 24 KiB of code and constants on armhf: $bytes" \
         test $((${bytes%% *} + $(echo "$bytes" | cut -d' ' -f2))) -lt 24576

@@ -99,6 +99,7 @@ int view_frame(view *v, double dt);
 
 /* view_panel.c */
 void view_draw_panel(view *v);
+int view_is_fine(const view *v); /* letters are twice as large: on a screen of small pixels */
 void view_tell(view *v, const char *format, ...)
 #ifdef __GNUC__
     __attribute__((format(printf, 2, 3)))

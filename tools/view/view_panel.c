@@ -17,6 +17,8 @@ static const overlay_color backing = {0.05f, 0.06f, 0.09f, 0.78f}, bright = {0.9
 
 enum { MOST_LINES = 64, MOST_LETTERS = 160, LEAST_LETTERS = 24 };
 
+#define LIST_BORDER 24.0 /* of a list that covers the frame */
+
 /* Lines that are gathered before they are drawn, so that what is behind them is of their size. */
 typedef struct lines {
     char text[MOST_LINES][MOST_LETTERS];
@@ -73,18 +75,25 @@ static void put(lines *l, overlay_color color, const char *format, ...)
     } while (*at);
 }
 
-/* Returns how high it is. */
-static double draw_lines(overlay *o, const lines *l, double x, double y)
+static void size_of(const overlay *o, const lines *l, double *width, double *height)
 {
-    const double height = overlay_line_height(o), letter = overlay_letter_width(o), border = letter;
     size_t longest = 0;
 
     for (int i = 0; i < l->count; i++)
         longest = strlen(l->text[i]) > longest ? strlen(l->text[i]) : longest;
-    overlay_rectangle(o, x, y, (double)longest * letter + 2.0 * border, l->count * height + border, backing);
+    *width = ((double)longest + 2.0) * overlay_letter_width(o);
+    *height = l->count * overlay_line_height(o) + overlay_letter_width(o);
+}
+
+static void draw_lines(overlay *o, const lines *l, double x, double y)
+{
+    const double border = overlay_letter_width(o);
+    double width, height;
+
+    size_of(o, l, &width, &height);
+    overlay_rectangle(o, x, y, width, height, backing);
     for (int i = 0; i < l->count; i++)
-        overlay_text(o, x + border, y + border / 2.0 + i * height, l->colors[i], l->text[i]);
-    return l->count * height + border;
+        overlay_text(o, x + border, y + border / 2.0 + i * overlay_line_height(o), l->colors[i], l->text[i]);
 }
 
 /* ------------------------------------------------------------------ contents */
@@ -226,27 +235,19 @@ static void draw_handles(const view *v, double unit)
     }
 }
 
-static void draw_help(const view *v, double unit)
+static void gather_keys(lines *l)
 {
     const char *key, *what;
-    lines l;
 
-    memset(&l, 0, sizeof l);
-    l.letters = MOST_LETTERS - 1;
     for (int n = 0; view_key_line(n, &key, &what); n++)
-        put(&l, key[0] ? bright : dim, "%-12s %s", key, what);
-    draw_lines(v->overlay, &l, 24.0 * unit, 24.0 * unit);
+        put(l, key[0] ? bright : dim, "%-12s %s", key, what);
 }
 
-static void draw_capabilities(const view *v, double unit)
+static void gather_capabilities(lines *l, const view *v)
 {
-    lines l;
-
-    memset(&l, 0, sizeof l);
-    l.letters = MOST_LETTERS - 1;
-    put(&l, dim, "a letter hides a capability, or shows it again; C: enough");
+    put(l, dim, "a letter hides a capability, or shows it again; C: enough");
     for (int c = 0; c < GN_CAPABILITY_COUNT; c++)
-        put(&l,
+        put(l,
             v->hidden >> c & 1                                   ? red
             : gn_target_can(&v->stage->target, (gn_capability)c) ? bright
                                                                  : dim,
@@ -254,7 +255,14 @@ static void draw_capabilities(const view *v, double unit)
             v->hidden >> c & 1                                   ? "hidden"
             : gn_target_can(&v->stage->target, (gn_capability)c) ? "proven"
                                                                  : "not here");
-    draw_lines(v->overlay, &l, 24.0 * unit, 24.0 * unit);
+}
+
+static int has_room(const view *v, const lines *l)
+{
+    double width, height;
+
+    size_of(v->overlay, l, &width, &height);
+    return width + 2.0 * LIST_BORDER < v->size[0] && height + 2.0 * LIST_BORDER < v->size[1];
 }
 
 static void draw_figures(const view *v, double unit, double border)
@@ -277,20 +285,33 @@ static void draw_figures(const view *v, double unit, double border)
                v->size[1] - border - overlay_line_height(o) - overlay_letter_width(o));
 }
 
+int view_is_fine(const view *v)
+{
+    return window_exists(v->stage->platform) && window_scale(v->stage->platform) > 1.5;
+}
+
 void view_draw_panel(view *v)
 {
     overlay *o = v->overlay;
-    const int fine = window_exists(v->stage->platform) && window_scale(v->stage->platform) > 1.5;
-    const double unit = fine ? 2.0 : 1.0, border = 10.0 * unit;
+    int fine = view_is_fine(v);
+    double unit;
+    lines l;
 
+    memset(&l, 0, sizeof l);
+    l.letters = MOST_LETTERS - 1;
+    if (v->shows_help)
+        gather_keys(&l);
+    else if (v->shows_capabilities)
+        gather_capabilities(&l, v);
     overlay_begin(o, v->size[0], v->size[1], fine);
+    if (fine && !has_room(v, &l)) /* of a long list all is to be read */
+        overlay_begin(o, v->size[0], v->size[1], fine = 0);
+    unit = fine ? 2.0 : 1.0;
     if (v->is_split)
         overlay_rectangle(o, v->split * v->size[0] - unit, 0.0, 2.0 * unit, v->size[1], bright);
-    if (v->shows_help)
-        draw_help(v, unit);
-    else if (v->shows_capabilities)
-        draw_capabilities(v, unit);
+    if (l.count)
+        draw_lines(o, &l, LIST_BORDER, LIST_BORDER);
     else if (!v->hides_panel)
-        draw_figures(v, unit, border);
+        draw_figures(v, unit, 10.0 * unit);
     overlay_end(o);
 }

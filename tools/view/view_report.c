@@ -61,6 +61,7 @@ int view_write_report(const view *v, const char *path)
     cJSON_AddStringToObject(root, "renderer", (const char *)v->stage->gl->glGetString(GL_RENDERER));
     cJSON_AddStringToObject(root, "platform", v->stage->platform->kind->name);
     cJSON_AddItemToObject(root, "size", cJSON_CreateDoubleArray(size, 2));
+    cJSON_AddBoolToObject(root, "fine", view_is_fine(v));
     cJSON_AddNumberToObject(root, "frame", v->frame);
     cJSON_AddNumberToObject(root, "seconds", v->seconds);
     cJSON_AddStringToObject(root, "show", shows[v->show]);
