@@ -124,7 +124,7 @@ ifeq ($($(VARIANT)),)
 $(error VARIANT is one of release debug asan size ($(VARIANT)))
 endif
 
-.PHONY: footprint footprint-page all deps deps-drivers demo test test-drivers test-arm arm-tests angle truth bench trade selector certify boards headers layers asan valgrind size sizes install install-lib format clean help check-build force
+.PHONY: footprint measured footprint-page all deps deps-drivers demo test test-drivers test-arm arm-tests angle truth bench trade selector certify boards headers layers asan valgrind size sizes install install-lib format clean help check-build force
 .SECONDARY:
 
 all: $(B)/libgnomon.a $(COMMAND) $(call objects,port/port_template.c) ## build the library and the command
@@ -220,11 +220,13 @@ sizes: $(B)/libgnomon.a
 
 # Objects of their own, since call graphs are written beside them.
 footprint: ## bytes of code, stack and heap for armhf, into docs/footprint.md (debootstrap, qemu)
+	@$(MAKE) --no-print-directory CROSS=arm-linux-gnueabihf- VARIANT=footprint FEATURES= measured
 	@$(MAKE) --no-print-directory CROSS=arm-linux-gnueabihf- VARIANT=footprint footprint-page
 
-footprint-page: $(B)/libgnomon.a $(B)/tests/bench/bench_memory
-	@$(PYTHON) tests/footprint.py $(CROSS) $(B) qemu-arm-static -L $(SYSROOT) $(B)/tests/bench/bench_memory > build/footprint.md && \
-	  mv build/footprint.md docs/footprint.md
+measured: $(B)/libgnomon.a $(B)/tests/bench/bench_memory
+
+footprint-page: measured
+	@$(PYTHON) tests/footprint.py $(CROSS) $(B) qemu-arm-static -L $(SYSROOT) > build/footprint.md && mv build/footprint.md docs/footprint.md
 
 install: install-lib $(COMMAND) ## library, headers, gnomon.pc and the command under DESTDIR and PREFIX
 	$(if $(COMMAND),install -d $(D)/bin && install -m 755 $(COMMAND) $(D)/bin)

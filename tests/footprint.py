@@ -1,6 +1,6 @@
-"""footprint.py CROSS BUILD MEMORY... - prints docs/footprint.md from a build with -Os and call graphs (make footprint).
+"""footprint.py CROSS BUILD QEMU... - prints docs/footprint.md from a build with -Os and call graphs (make footprint).
 
-CROSS: the compiler's prefix; BUILD: where the library's objects are; MEMORY: the command that runs bench_memory.
+CROSS: the compiler's prefix; BUILD: where the library's objects are, and behind "-with" those of the smallest; QEMU: what runs a program.
 """
 import collections
 import glob
@@ -26,8 +26,10 @@ GROUPS = [  # feature of core/gni_features.h, or what is always there; objects, 
     ("`clusters`", "clusters order facing_floats"),
     ("`solids`", "embedded"),
     ("`proofs`", "proofs proof_* show host_state"),
-    ("`selector`", "select selector suitability knowledge learn loads possible fuzzy rules_about rules_default select_explain traffic"),
-    ("`text`", "rules scan slices knowledge_read explain plan_json"),
+    ("`selector`",
+     "select selector suitability knowledge learn loads possible fuzzy rules_about rules_default select_explain traffic "
+     "rules scan slices knowledge_read"),
+    ("`text`", "explain plan_json"),
 ]
 BUILDS = ["", "messages", "proofs", "messages proofs", "culling messages proofs", "culling clusters solids messages proofs",
           "culling batches fallback refine cache welding clusters solids messages proofs", None]  # None: all of them
@@ -54,7 +56,7 @@ def measure(cross, features):
 
 
 def main():
-    cross, build, memory = sys.argv[1], sys.argv[2], sys.argv[3:]
+    cross, build, qemu = sys.argv[1], sys.argv[2], sys.argv[3:]
     objects = {os.path.basename(p)[:-2]: p for pattern in ("core/*.o", "gles/*.o", "gles/*/*.o", "port/port_libc.o")
                for p in glob.glob(os.path.join(build, pattern))}
     left, total = dict(objects), collections.Counter()
@@ -82,12 +84,14 @@ def main():
         row([{None: "all", "": "none"}.get(features, "`%s`" % features), kib(whole["code"]), kib(whole["constants"]), kib(part["code"]),
              kib(part["constants"]), kib(part["data"])])
     print("\n## Stack\n\nThe deepest paths below public functions, in bytes, by gcc's call graphs (`tests/stack.py`); calls of the port and of the GL "
-          "are not followed.\n\n```")
-    print(run(sys.executable, "tests/stack.py", build).rstrip())
-    print("```\n\n## Heap\n\nNothing is allocated in a frame (`tests/gles/test_walk.c`, `tests/core/test_update.c`, `tests/select/test_selector.c`). Once, for a mesh; the plan's memory is the "
-          "host's own (`tests/bench/bench_memory.c`).\n")
-    print(run(*memory).rstrip())
-    print("\n## What was asked\n\nUnder 24 KiB for a build with the stencil alone: so it is, constants included (`FEATURES=`; `tests/tools/features.sh` holds it to "
+          "are not followed. Of the whole library, and of the smallest:\n")
+    for folder in (build, build + "-with"):
+        print("```\n%s\n```\n" % run(sys.executable, "tests/stack.py", folder).rstrip())
+    print("## Heap\n\nNothing is allocated in a frame (`tests/gles/test_walk.c`, `tests/core/test_update.c`, `tests/select/test_selector.c`). Once, "
+          "for a mesh; the plan's memory is the host's own (`tests/bench/bench_memory.c`). Of the whole library, and of the smallest:\n")
+    for folder in (build, build + "-with"):
+        print(run(*qemu, folder + "/tests/bench/bench_memory").rstrip() + "\n")
+    print("## What was asked\n\nUnder 24 KiB for a build with the stencil alone: so it is, constants included (`FEATURES=`; `tests/tools/features.sh` holds it to "
           "that). Under 96 for the whole library: it is more, as above. Stacks under 8 KiB: so they are.")
 
 
