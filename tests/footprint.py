@@ -13,11 +13,11 @@ from taken import run, sections, sections_of_line, taken
 GROUPS = [  # feature of core/gni_features.h, or what is always there; objects, each once, by the first that names it
     ("always: meshes: welding, edges, parts, silhouettes, facing", "mesh weld edges parts star casting silhouette facing chunks update"),
     ("always: plans: methods, steps, records, index streams, checks",
-     "plan plan_light plan_passes plan_volumes plan_check records volume extrude camera matrix choose methods capability context text stain soft hull"),
+     "plan plan_light plan_passes plan_volumes plan_check records volume extrude camera matrix choose methods capability context text stain"),
     ("always: the walk by OpenGL ES 2.0: loading, programs, buffers, state, stencil",
      "load program walk state stencil buffers device describe volumes quad advertised saved"),
     ("always: a port for a C library", "port_libc"),
-    ("`culling`", "bounds ends cases cells extent fronts intervals patches receivers slivers fan flats"),
+    ("`culling`", "bounds ends cases cells extent fronts intervals patches receivers slivers fan flats hull soft"),
     ("`batches`", "batches sweep"),
     ("`fallback`", "batches_color choose_color fragments color images masks"),
     ("`refine`", "plan_refine thin refine"),
