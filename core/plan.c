@@ -372,10 +372,10 @@ static gn_result make_frame(gni_draft *d, gn_scene *own)
     if (s->camera.zfar != 0.0 && !gni_has_finite_far(&s->camera))
         d->plan->clear_depth = gni_depth_of(&s->camera, d->plan->depth_range, s->camera.zfar);
     gni_projection(d->projection, &s->camera, d->plan->depth_range);
-    if (GNI_HAS_CULLING)
+    if (GNI_HAS_CULLING) {
         gni_model_view(d->view, &s->camera, identity, no_centre);
-    if (GNI_HAS_CULLING)
         gni_make_view(&d->seen, &s->camera, &s->target, d->whole);
+    }
     find_depth_limit(d);
     gni_start_stain(d);
     result = place_objects(d);

@@ -24,28 +24,15 @@ static gn_result hide(gn_context *context, const char *from, const char *names, 
 
 gn_result gn_gles_create(gn_context *context, const gn_gles_desc *desc, gn_gles **out)
 {
+    /* clang-format off */
     static const float corners[][4] = {
-        {-1, -1, 0, 1},
-        {1, -1, 0, 1},
-        {1, 1, 0, 1},
-        {-1, -1, 0, 1},
-        {1, 1, 0, 1},
-        {-1, 1, 0, 1}, /* GNI_QUAD */
+        {-1, -1, 0, 1}, {1, -1, 0, 1}, {1, 1, 0, 1}, {-1, -1, 0, 1}, {1, 1, 0, 1}, {-1, 1, 0, 1}, /* GNI_QUAD */
 #if GNI_HAS_PROOFS
-        {-1, -1, 1, 0},
-        {1, -1, 1, 0},
-        {1, 1, 1, 0},
-        {-1, -1, 1, 0},
-        {1, 1, 1, 0},
-        {-1, 1, 1, 0}, /* GNI_FAR_QUAD */
-        {-1, -1, 1, 1},
-        {1, -1, 1, 1},
-        {1, 1, 1, 0},
-        {-1, -1, 1, 1},
-        {1, 1, 1, 0},
-        {-1, 1, 1, 0} /* GNI_WALL */
+        {-1, -1, 1, 0}, {1, -1, 1, 0}, {1, 1, 1, 0}, {-1, -1, 1, 0}, {1, 1, 1, 0}, {-1, 1, 1, 0}, /* GNI_FAR_QUAD */
+        {-1, -1, 1, 1}, {1, -1, 1, 1}, {1, 1, 1, 0}, {-1, -1, 1, 1}, {1, 1, 1, 0}, {-1, 1, 1, 0}  /* GNI_WALL */
 #endif
     };
+    /* clang-format on */
     const gn_port *port = gn_context_port(context);
     const char *missing;
     uint32_t hidden = 0;
