@@ -49,8 +49,9 @@ static uint32_t batch_limit(const gn_scene *s)
 static int lay_out(gni_draft *d, arena *a)
 {
     const gn_scene *s = d->scene;
-    const uint32_t limit = batch_limit(s);
-    const int is_colored = gni_counts_in_color(gni_pick(s));
+    const uint32_t limit = GNI_HAS_BATCHES ? batch_limit(s) : 0;
+    const int is_colored = GNI_HAS_FALLBACK && gni_counts_in_color(gni_pick(s));
+    const size_t most_steps = GNI_HAS_REFINE && gni_pick(s) == GN_METHOD_REFINE ? 5 : 3; /* of a batch */
     const size_t most_patches = GNI_HAS_CULLING ? GN_MOST_PATCHES : 0;
     size_t records = 0, chunks = 0, indices = 0, triangles = 0, all = 0, batches = 1, vertices = 0, largest = 0;
     const size_t most =
@@ -86,9 +87,7 @@ static int lay_out(gni_draft *d, arena *a)
      * folded, and zeroed. Refined, it is named and zeroed twice more, and its batches come again. */
     if (batches > (SIZE_MAX / 5 - 16) / (s->light_count ? s->light_count : 1))
         return 0;
-    d->steps =
-        cut(a, 8 + (size_t)s->light_count * (12 + most_patches + (gni_pick(s) == GN_METHOD_REFINE ? 5 : 3) * batches),
-            sizeof *d->steps);
+    d->steps = cut(a, 8 + (size_t)s->light_count * (12 + most_patches + most_steps * batches), sizeof *d->steps);
     d->draws = cut(a, s->light_count, 1);
     d->lights = cut(a, s->light_count, sizeof *d->lights);
     d->objects = cut(a, s->object_count, sizeof *d->objects);

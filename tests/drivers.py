@@ -71,7 +71,7 @@ FINDINGS = [
      "proven as such by drawing into them."),
     (["softpipe", "armhf softpipe", "arm64 softpipe"], ["test_targets"],
      "softpipe's depth clamp fails its proof (docs/boards.md), which the program does not expect of a driver, and it has no multisampled "
-     "objects; what follows in it stumbles over that."),
+     "objects."),
 ]
 
 
