@@ -133,6 +133,7 @@ int main(int count, char **arguments)
     const size_t size = gn_plan_bound(&scene); /* a host asks once, for the most that it will have */
     if (gn_plan_make(context, &scene, malloc(size), size, &plan) != GN_OK || gn_gles_begin(gles, plan) != GN_OK)
         fail(gn_message(context));
+    puts(plan->lights[0].reason); /* which way was taken, and why */
     while (gn_gles_next(gles, &step))
         if (step.draw == GN_DRAW_AMBIENT)
             draw_everything(gl, program, plan, 0.25f);
