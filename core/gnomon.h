@@ -127,8 +127,8 @@ typedef struct gn_mesh_info {
 } gn_mesh_info;
 
 /* Copies what it needs. Vertices are welded by exact position (-0 equals 0). Degenerate and duplicate triangles are
- * lawful; a mesh may have no triangle at all. Returns GN_OK, GN_E_ARG, GN_E_MESH, GN_E_MEMORY; *mesh is NULL unless
- * GN_OK. Time O(triangles log triangles); holds about 150 bytes a triangle. */
+ * lawful; a mesh may have no triangle at all. Returns GN_OK, GN_E_ARG, GN_E_MESH, GN_E_MEMORY; GN_E_DEVICE for a
+ * weld angle in a library without the feature welding; *mesh is NULL unless GN_OK. Time O(triangles log triangles); holds about 150 bytes a triangle. */
 gn_result gn_mesh_create(gn_context *context, const gn_mesh_desc *desc, gn_mesh **mesh);
 void gn_mesh_destroy(gn_mesh *mesh);
 
@@ -235,7 +235,7 @@ typedef struct gn_light {
 /* A light with extent as `count` lights within `radius` of it, each with as much of its color, at jittered places that
  * are the same in every frame (McGuire 2003, section 4). radius: of a directional light, of its disc at distance 1 (the
  * sun's is 0.0047); one light alone stays where it is. Each has the bounds of the whole; the list of the exempt stays
- * borrowed. out: [count]. Returns GN_OK, GN_E_ARG. */
+ * borrowed. out: [count]. Returns GN_OK, GN_E_ARG; GN_E_DEVICE for several in a library without the feature culling. */
 gn_result gn_light_soften(gn_context *context, const gn_light *light, double radius, uint32_t count, gn_light *out);
 
 enum {
@@ -258,7 +258,7 @@ typedef struct gn_object {
 
 /* gn_facing() and gn_casting() for an object in the world: [triangle_count]. A model matrix without inverse, which
  * flattens the object, is lawful: fronts are then those of the flattened triangles; lit ones cast in solid parts,
- * all in others. */
+ * all in others; in a library without the feature solids none casts, and plans refuse it. */
 void gn_object_facing(const gn_object *object, const gn_light *light, int8_t *facing);
 void gn_object_casting(const gn_object *object, const gn_light *light, int8_t *casting);
 
