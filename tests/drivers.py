@@ -177,7 +177,8 @@ def start_server():
     if "DISPLAY" in os.environ or not shutil.which("Xvfb"):
         return lambda: None
     read, write = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
+    # Without -noreset it starts anew whenever a program has ended, and refuses the next one meanwhile.
+    server = subprocess.Popen(["Xvfb", "-noreset", "-displayfd", str(write), "-screen", "0", "1280x1024x24", "-nolisten", "tcp"],
                               pass_fds=[write], stderr=subprocess.DEVNULL)
     os.close(write)
     with os.fdopen(read) as file:
