@@ -6,11 +6,7 @@ case $arch in armhf) qemu=qemu-arm-static ;; *) qemu=qemu-aarch64-static ;; esac
 root=build/root-$arch
 tmp=$build/arm
 gnomon=$host/gnomon
-rm -rf "$tmp"
-mkdir -p "$tmp"
 . tests/tools/checks.sh
-python=python3
-[ -x /usr/bin/python3 ] && python=/usr/bin/python3
 GALLIUM_DRIVER=softpipe EGL_PLATFORM=surfaceless
 export GALLIUM_DRIVER EGL_PLATFORM
 

@@ -1,5 +1,10 @@
-# checks.sh - what the command's tests share. Sourced with $gnomon and $tmp set, $tmp a folder; one line a test: "ok ..." or "not ok ...".
+# checks.sh - what the command's tests share. Sourced with $gnomon and $tmp set, of which it makes an empty folder; one line a test:
+# "ok ..." or "not ok ...".
 failed=0
+rm -rf "$tmp"
+mkdir -p "$tmp"
+python=python3 # Debian's own has what Debian's packages bring
+[ -x /usr/bin/python3 ] && python=/usr/bin/python3
 
 ok() { # what, then a command that must succeed
     what=$1

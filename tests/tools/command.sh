@@ -5,8 +5,6 @@ build=$1
 gnomon=$build/gnomon
 scenes=build/scenes
 tmp=$build/command
-rm -rf "$tmp"
-mkdir -p "$tmp"
 . tests/tools/checks.sh
 
 has() { grep -q "$2" "$1"; }

@@ -5,11 +5,7 @@
 build=$1 cc=$2
 gnomon=$build/gnomon
 tmp=$build/features
-rm -rf "$tmp"
-mkdir -p "$tmp"
 . tests/tools/checks.sh
-python=python3
-[ -x /usr/bin/python3 ] && python=/usr/bin/python3
 # shellcheck disable=SC2086,SC2046 # lists
 EGL_PLATFORM=surfaceless
 export EGL_PLATFORM

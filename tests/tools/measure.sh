@@ -5,11 +5,7 @@ build=$1
 gnomon=$build/gnomon
 tmp=$build/measure
 scene=build/scenes/colours.gltf
-rm -rf "$tmp"
-mkdir -p "$tmp"
 . tests/tools/checks.sh
-python=python3
-[ -x /usr/bin/python3 ] && python=/usr/bin/python3
 
 measure() { # directory, further options
     directory=$1

@@ -4,11 +4,7 @@
 build=$1
 gnomon=$build/gnomon
 tmp=$build/minimal
-rm -rf "$tmp"
-mkdir -p "$tmp"
 . tests/tools/checks.sh
-python=python3
-[ -x /usr/bin/python3 ] && python=/usr/bin/python3
 EGL_PLATFORM=surfaceless
 export EGL_PLATFORM
 

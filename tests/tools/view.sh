@@ -5,8 +5,6 @@ build=$1
 gnomon=$build/gnomon
 tmp=$build/view
 scene=build/scenes/colours.gltf
-rm -rf "$tmp"
-mkdir -p "$tmp"
 . tests/tools/checks.sh
 
 if command -v Xvfb > /dev/null; then
