@@ -1,6 +1,6 @@
 /* clusters.c - runs of 64 triangles, and a tree over them: what a light needs to look at many triangles at once.
  *
- * A cluster has its planes as floats in lanes, for facing.c; the corners whose neighbour is in another cluster; and a
+ * A cluster has its planes as floats in lanes, for facing_floats.c; the corners whose neighbour is in another cluster; and a
  * node: a ball around its vertices and a cone around its normals. Eight nodes are a node of the next level. Where ball
  * and cone say that a light sees all fronts, or all backs, nothing below is looked at: the cost of a silhouette then
  * follows the silhouette's length, not the triangles' number (Sander et al., Silhouette Clipping, 2000, search such a

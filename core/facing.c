@@ -1,7 +1,7 @@
 /* facing.c - which triangles show their fronts to a light, and which their backs: a bit each.
  *
- * The truth of a bit is the sign of one expression in double (DESIGN.md, decision 1). facing_floats.c finds the same bits
- * faster. */
+ * The truth of a bit is the sign of one expression in double (DESIGN.md, decision 1). facing_floats.c finds the same
+ * bits faster. */
 #include "gni.h"
 
 static int exact_side(const double plane[4], const double light[4])

@@ -1,6 +1,6 @@
-/* facing_floats.c - the bits of facing.c in floats, 8 at a time, wherever these are further from 0 than they can be wrong; the
- * few others are asked in double. So the bits are the same whatever floats do, on any processor: with fused multiply-add or
- * without, in vectors or one by one.
+/* facing_floats.c - the bits of facing.c in floats, 8 at a time, wherever these are further from 0 than they can be
+ * wrong; the few others are asked in double. So the bits are the same whatever floats do, on any processor: with fused
+ * multiply-add or without, in vectors or one by one.
  *
  * The bound: plane and light are rounded to float (two relative errors of 2^-24), multiplied (one), and summed (three
  * at most): under 7 * 2^-24 of the sum of the terms' magnitudes. Normals are scaled below 1 in every component, so that

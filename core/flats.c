@@ -1,5 +1,5 @@
-/* flats.c - records of caps alone, on patches: the fan that closes a volume on a plane is also its projection on any other. It is
- * made once, for a volume's record, or in the cache, or here. */
+/* flats.c - records of caps alone, on patches: the fan that closes a volume on a plane is also its projection on any
+ * other. It is made once, for a volume's record, or in the cache, or here. */
 #include "gni_plan.h"
 
 /* What a volume's record has of a cap on patches. Returns 1 where that is a cap too. */

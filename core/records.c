@@ -1,6 +1,7 @@
 /* records.c - records of a volume: where its indices are, chunk by chunk, and where its far vertices go.
  *
- * Indices are made for this frame, of the parts that its way of counting takes. (kept_records.c: of those in the cache.) */
+ * Indices are made for this frame, of the parts that its way of counting takes. (kept_records.c: of those in the
+ * cache.) */
 #include "gni_plan.h"
 
 #include <math.h>

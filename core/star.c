@@ -2,8 +2,8 @@
  *
  * A part every triangle of which a point sees from the same side, and in whose sight some direction is covered once, is
  * seen in every direction once: its projection on a ball around the point covers that everywhere alike. Cheap, without
- * memory, and true of much that is modelled; for what is not it says nothing (embedded.c goes on from there). Few triangles are
- * not wholly on one side of the way, seen along two axes. */
+ * memory, and true of much that is modelled; for what is not it says nothing (embedded.c goes on from there). Few
+ * triangles are not wholly on one side of the way, seen along two axes. */
 #include "gni.h"
 
 #include <math.h>
