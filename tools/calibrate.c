@@ -40,6 +40,7 @@ static const struct sample {
 enum { SAMPLES = sizeof samples / sizeof samples[0], DRAWS = 2, LIGHTS = 2 };
 
 #define STRAYS 1.4  /* so many times dearer or cheaper a way may look in the sample than it is in other scenes */
+#define FREE   0.1  /* of what is likely: no way is so cheap */
 #define DEARER 1.4  /* the sample is than test scenes with as much to draw (bench_predict) */
 #define ENOUGH 1700 /* ms: no further way is observed; what was not follows what was */
 
@@ -189,14 +190,15 @@ static double board_multiple(observed all[GN_METHOD_TOTAL][GN_VARIANT_COUNT], co
     return count ? fmax(spread_of(multiples, count).median / DEARER, 1e-3) : 1.0;
 }
 
-/* A way's own multiple: the board's, but for by how much it is farther from that than a few frames of one scene may be. */
+/* A way's own multiple: the board's, but for by how much it is farther from that than a few frames of one scene may be. What
+ * looks as good as free was not measured: the frames without shadows met a busier machine. */
 static double own_multiple(const observed *o, const double *values, double board, const double *costs)
 {
     double expected;
     const double ratio = multiple_of(o, values, costs, &expected) / board;
 
-    if (!(ratio > 0.01))
-        return 0.01 * board;
+    if (!(ratio > FREE))
+        return board;
     return board * (ratio > 1.0 ? fmax(ratio / STRAYS, 1.0) : fmin(ratio * STRAYS, 1.0));
 }
 
