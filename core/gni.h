@@ -333,9 +333,9 @@ uint32_t gni_color_limit(const gn_scene *s, gn_method method);
 /* kept_masks.c: whether masks are to be used for several frames. */
 int gni_keeps_masks(const gn_scene *s);
 
-/* What is meant where AUTO is asked for; AUTO when nothing is possible. */
 /* Whether masks carry depth. */
 int gni_carries_depth(const gn_scene *s);
+/* What is meant where AUTO is asked for; AUTO when nothing is possible. */
 gn_method gni_pick(const gn_scene *scene);
 /* Counts of wrapping bits, and above them as many as name a patch. */
 void gni_patch_layout(gn_stencil_layout *layout, uint32_t patch_count);
